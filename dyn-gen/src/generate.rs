@@ -70,7 +70,7 @@ pub struct GeneratedFunction {
     pub passes: Vec<PassReport>,
     /// The graph that is printed.
     pub graph: Graph,
-    /// The same function in lanes, if it is also printed so.
+    /// The same function in lanes, if it is also printed so: not where its blocks would lose more digits than [`MOST_GROWTH`].
     pub in_lanes: Option<Packed>,
 }
 
@@ -198,15 +198,16 @@ pub fn optimise_without(
 ) -> Result<Vec<GeneratedFunction>, GenerateError> {
     let chosen = choose(program, names)?;
     let context = Context { left_out: without.to_vec(), ..context(program, numbers)? };
-    let baked = numbers.platform().is_some() && numbers.run_time_parameters(program)?.is_empty();
     // Twice the work for functions in lanes; the number of steps is as good a guess as any before they are flattened.
-    let in_lanes = |function: &Function| baked && IN_LANES.contains(&function.name.as_str());
+    let in_lanes = |function: &Function| IN_LANES.contains(&function.name.as_str());
     let size = |function: &Function| function.steps.len() * (1 + usize::from(in_lanes(function)));
     let functions = parallel::map_largest_first(&chosen, size, |function| {
         let (flat, groups) = program.flatten_with_groups(function);
         let before = flat.operation_count();
         let (graph, passes) = run_passes(&flat, &context);
-        let in_lanes = in_lanes(function).then(|| pack(&flat, groups, program.leg_count, &context));
+        let in_lanes = in_lanes(function)
+            .then(|| pack(&flat, groups, program.leg_count, &context))
+            .filter(|packed| packed.partition.growth <= MOST_GROWTH);
         GeneratedFunction { before, passes, graph, in_lanes }
     });
     functions.iter().try_for_each(GeneratedFunction::check_growth)?;

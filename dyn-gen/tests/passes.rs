@@ -35,6 +35,47 @@ fn bake_replaces_parameters_and_folds() {
 }
 
 #[test]
+fn what_cancels_up_to_rounding_is_baked_as_zero() {
+    check(
+        "bake",
+        "y = x * (p / 10 - 0.3)\nz = x * (p / 10 - 0.29999)",
+        expect![[r#"
+            y = x * 0
+            z = x * 0.000010000000000010001
+        "#]],
+    );
+}
+
+#[test]
+fn chain_begins_sums_of_products_with_the_odd_term() {
+    // The sum of products is read once, so it may begin with z; where z comes late, or the sum is read twice, it stays.
+    check(
+        "chain",
+        "a = z + (x * y + u * v)\nb = z - (x * u - y * v)\nc = (x * v + y * y) - z",
+        expect![[r#"
+            a = (u * v) + (z + (x * y))
+            b = (y * v) + (z - (x * u))
+            c = (y * y) + ((x * v) - z)
+        "#]],
+    );
+    check(
+        "chain",
+        "a = sqrt(sqrt(z)) + (x * y + u * v)",
+        expect![[r#"
+            a = sqrt(sqrt(z)) + ((x * y) + (u * v))
+        "#]],
+    );
+    check(
+        "chain",
+        "s = x * y + u * v\na = z + s",
+        expect![[r#"
+            s = (x * y) + (u * v)
+            a = z + s
+        "#]],
+    );
+}
+
+#[test]
 fn fuse_takes_up_products_in_sums() {
     // `x * y` has two readers, both sums: it disappears. `u * v` stays for the root, and is taken up where nothing else is.
     let before =

@@ -14,8 +14,8 @@ use crate::real::Real;
 struct Row<T, const N: usize, const K: usize> {
     coefficients: [T; N],
     right: [T; K],
-    /// Largest coefficient of the row as given; the pivot is the one largest relative to it.
-    scale: T,
+    /// One over the largest coefficient of the row as given; the pivot is the one largest relative to it.
+    inverse_scale: T,
 }
 
 /// Solves `matrix * x = right_hand_side`; `matrix` is row-major.
@@ -141,18 +141,20 @@ fn solve_columns<T: Real, const N: usize, const K: usize>(
     matrix: &[[T; N]; N],
     right: &[[T; K]; N],
 ) -> [[T; K]; N] {
-    let mut rows = [Row { coefficients: [T::zero(); N], right: [T::zero(); K], scale: T::zero() }; N];
+    let mut rows = [Row { coefficients: [T::zero(); N], right: [T::zero(); K], inverse_scale: T::zero() }; N];
     for (row, (coefficients, right)) in rows.iter_mut().zip(matrix.iter().zip(right)) {
         let scale = coefficients.iter().fold(T::zero(), |largest: T, element| largest.max(element.abs()));
-        *row = Row { coefficients: *coefficients, right: *right, scale };
+        *row = Row { coefficients: *coefficients, right: *right, inverse_scale: T::one() / scale };
     }
 
     let mut remaining = rows.as_mut_slice();
-    for column in 0..N {
+    let mut reciprocals = [T::zero(); N];
+    for (column, reciprocal) in reciprocals.iter_mut().enumerate() {
         let Some((pivot, below)) = mem::take(&mut remaining).split_first_mut() else { break };
         exchange_for_largest(pivot, below, column);
+        *reciprocal = T::one() / pivot.coefficients[column];
         for row in below.iter_mut() {
-            row.subtract(pivot, column);
+            row.subtract(pivot, column, *reciprocal);
         }
         remaining = below;
     }
@@ -165,7 +167,7 @@ fn solve_columns<T: Real, const N: usize, const K: usize>(
                 *sum -= *coefficient * *known;
             }
         }
-        solution[i] = sum.map(|sum| sum / row.coefficients[i]);
+        solution[i] = sum.map(|sum| sum * reciprocals[i]);
     }
     solution
 }
@@ -192,12 +194,12 @@ fn exchange_for_largest<T: Real, const N: usize, const K: usize>(
 
 impl<T: Real, const N: usize, const K: usize> Row<T, N, K> {
     fn relative_size(&self, column: usize) -> T {
-        self.coefficients[column].abs() / self.scale
+        self.coefficients[column].abs() * self.inverse_scale
     }
 
-    /// Eliminates `column` from this row with the help of the pivot row.
-    fn subtract(&mut self, pivot: &Self, column: usize) {
-        let factor = self.coefficients[column] / pivot.coefficients[column];
+    /// Eliminates `column` from this row with the help of the pivot row and one over its coefficient there.
+    fn subtract(&mut self, pivot: &Self, column: usize, reciprocal: T) {
+        let factor = self.coefficients[column] * reciprocal;
         for (element, pivot) in self.coefficients.iter_mut().zip(&pivot.coefficients).skip(column + 1) {
             *element -= factor * *pivot;
         }

@@ -207,6 +207,10 @@ fn implementation(
     let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
     let in_lanes = scalar == Scalar::F64 && model.in_lanes.contains(&signature.name);
     let body = if in_lanes {
+        let (given, parameters) = match model.parameters.is_empty() {
+            true => (None, None),
+            false => (Some(quote!(let #field = &self.#field;)), Some(quote!(#field: Parameters<#number>,))),
+        };
         let inputs = signature.inputs.iter().zip(&names);
         let outputs = signature.outputs.iter().zip(&names[signature.inputs.len()..]);
         let typed = |(symbol, name): (&Symbol, &proc_macro2::Ident)| {
@@ -215,7 +219,10 @@ fn implementation(
         };
         let (inputs, outputs) = (inputs.map(typed), outputs.map(typed));
         let function_in_lanes = name_in_lanes(&function);
-        quote!(#runtime::single_state!(#function_in_lanes, #function; #(#inputs),*; #(#outputs),*);)
+        quote! {
+            #given
+            #runtime::single_state!(#function_in_lanes, #function; #parameters #(#inputs),*; #(#outputs),*);
+        }
     } else {
         // `self::`: an output may have the function's name.
         quote!(self::#function(#parameters #(#names),*);)

@@ -1,6 +1,6 @@
 //! Which legs stand side by side: the blocks of the linear system for the actuators' reactions are made of them.
 
-use crate::graph::{Environment, Evaluator, Graph, Solve, SolveKind, solve_general};
+use crate::graph::{Environment, Evaluator, Graph, Node, Solve, SolveKind, solve_general};
 use crate::passes::Context;
 
 /// Legs in two times three lanes, and how the solve in blocks of them does over the sampled states.
@@ -22,13 +22,17 @@ impl Partition {
     }
 }
 
-/// The partition with the least growth; the first one if there is nothing to choose by.
+/// The partition with the least growth; the legs in order if there is nothing to choose by: no system, no states, or a matrix
+/// that depends on parameters at run time.
 pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
     let in_order = Partition::in_order(legs);
     let system = graph.solves.iter().find(|solve| solve.kind == SolveKind::General);
     let Some(solve) = system.filter(|solve| solve.right_hand_side.len() == 6 && legs == 6) else {
         return in_order;
     };
+    if depends_on_parameters(graph, solve, context) {
+        return in_order;
+    }
     let references: Vec<Reference> =
         sampled_matrices(graph, solve, context).iter().map(Reference::new).collect();
     let growth =
@@ -40,6 +44,21 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
         Partition { growth: growth(&legs), legs, states: references.len() }
     });
     candidates.min_by(|a, b| a.growth.total_cmp(&b.growth)).unwrap_or(in_order)
+}
+
+/// Whether a parameter that is not baked in reaches the matrix.
+fn depends_on_parameters(graph: &Graph, solve: &Solve, context: &Context) -> bool {
+    let mut needed = vec![false; graph.nodes.len()];
+    solve.matrix.iter().for_each(|id| needed[id.index()] = true);
+    graph.mark_needed(&mut needed);
+    let at_run_time = |node: &Node| match *node {
+        Node::Input { input, .. } => {
+            let symbol = &graph.inputs[input as usize];
+            symbol.parameter && !context.parameters.contains_key(&symbol.name)
+        }
+        _ => false,
+    };
+    graph.nodes.iter().zip(needed).any(|(node, needed)| needed && at_run_time(node))
 }
 
 /// The matrix at every sampled state, row-major.

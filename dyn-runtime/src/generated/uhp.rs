@@ -828,20 +828,15 @@ impl crate::kernels::Matrices for Uhp {
         coriolis_matrix_b: &mut [[f64; 6]; 6],
         jacobian_db: &mut [[f64; 6]; 6],
     ) {
-        self::matrices(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            mass_matrix_p,
-            coriolis_matrix_p,
-            jacobian_dp,
-            mass_matrix_b,
-            coriolis_matrix_b,
-            jacobian_db,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            matrices_in_lanes, matrices; parameters : Parameters < f64 >, base_position :
+            [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6],
+            platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; mass_matrix_p : [[f64; 6]; 6],
+            coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_b
+            : [[f64; 6]; 6], coriolis_matrix_b : [[f64; 6]; 6], jacobian_db : [[f64; 6];
+            6]
         );
     }
 }
@@ -962,18 +957,14 @@ impl crate::kernels::InverseDynamics for Uhp {
         external_wrench: &[f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::inverse_dynamics(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            inverse_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            inverse_dynamics_in_lanes, inverse_dynamics; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6];
+            inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -990,15 +981,12 @@ impl crate::kernels::ActuatorGeometry for Uhp {
         actuator_length: &mut [f64; 6],
         jacobian_dp: &mut [[f64; 6]; 6],
     ) {
-        self::actuator_geometry(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            platform_position,
-            platform_rotation,
-            rod_alignment,
-            actuator_length,
-            jacobian_dp,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            actuator_geometry_in_lanes, actuator_geometry; parameters : Parameters < f64
+            >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3], platform_position
+            : [f64; 3], platform_rotation : [[f64; 3]; 3]; rod_alignment : [f64; 6],
+            actuator_length : [f64; 6], jacobian_dp : [[f64; 6]; 6]
         );
     }
 }
@@ -1023,23 +1011,15 @@ impl crate::kernels::Control for Uhp {
         total_bias: &mut [f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::control(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            actuator_length,
-            actuator_velocity,
-            jacobian_dp,
-            mass_matrix_p,
-            total_bias,
-            inverse_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            control_in_lanes, control; parameters : Parameters < f64 >, base_position :
+            [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6],
+            base_acceleration : [f64; 6], platform_position : [f64; 3], platform_rotation
+            : [[f64; 3]; 3], platform_velocity : [f64; 6], platform_acceleration : [f64;
+            6], external_wrench : [f64; 6]; actuator_length : [f64; 6], actuator_velocity
+            : [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -1123,18 +1103,14 @@ impl crate::kernels::ForwardDynamics for Uhp {
         external_wrench: &[f64; 6],
         forward_dynamics: &mut [f64; 6],
     ) {
-        self::forward_dynamics(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            actuator_force,
-            external_wrench,
-            forward_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            forward_dynamics_in_lanes, forward_dynamics; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; forward_dynamics :
+            [f64; 6]
         );
     }
 }
@@ -29889,4 +29865,5973 @@ pub fn energy<T: Scalar>(
     let t766 = mul_add(parameters.gravity[2], t699, t765);
     let t767 = mul_sub(parameters.payload_mass, t749, t766);
     *potential_energy = mul_sub(c(0.5), mul_add(t614, t615, t684) + t746, t767);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t7, t8, t13, t70, t71, t76, t107, t111, t115, t120, t208, t209, t210, t211, t232, t233,
+        t234, t235, t236, t237, t260, t261, t305, t306, t307, t332, t333, t334, t435, t441, t442,
+        t466, t472, t500, t501, t502, t504, t546, t547, t570, t573, t575, t614, t615, t656, t657,
+        t658, t679, t682, t695, t698, t703, t721, t724, t725, t726, t727, t750, t768, t769, t770,
+        t771, t787, t791, t792, t806, t812, t813, t814, t825, t826, t827, t828, t829, t830, t831,
+        t832, t838, t839, t840, t841, t842, t843, t844, t845, t846, t847, t848, t849, t853, t854,
+        t855, t856, t857, t858, t859, t861, t863, t864, t865, t866, t867, t869, t877, t878, t879,
+        t884, t885, t886, t887, t888, t889, t890, t895, t899, t901, t902, t903, t904, t905, t912,
+        t913, t914, t915, t916, t917, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927,
+        t928, t929, t930, t931, t932, t933, t934, t936, t937, t940, t941, t942, t944, t945, t946,
+        t947, t948, t949, t950, t951, t954, t955, t956, t958, t959, t960, t961, t962, t963, t964,
+        t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977, t978, t979,
+        t980, t981, t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992, t993, t994,
+        t995, t996, t997,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 =
+            P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 =
+            P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        let t15 =
+            P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 =
+            P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        let t21 =
+            P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        let t22 =
+            P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        let t23 =
+            P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t27 = t14 * P::splat(P::lane(t16, 1));
+        let t28 = t14 * P::splat(P::lane(t16, 0));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t29 = mul_add(t15, P::splat(P::lane(t17, 0)), t25);
+        let t30 = t11 * P::splat(P::lane(t16, 2));
+        let t31 = mul_add(t15, P::splat(P::lane(t17, 1)), t26);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t32 = mul_add(t20, P::splat(P::lane(t17, 1)), t27);
+        let t33 = mul_add(t20, P::splat(P::lane(t17, 0)), t28);
+        let t34 = t14 * P::splat(P::lane(t16, 2));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t35 = mul_add(t21, P::splat(P::lane(t19, 0)), t29);
+        let t36 = mul_add(t21, P::splat(P::lane(t19, 1)), t31);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t37 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t38 = mul_add(t15, P::splat(P::lane(t17, 2)), t30);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t22, P::splat(P::lane(t19, 0)), t33);
+        let t40 = mul_add(t20, P::splat(P::lane(t17, 2)), t34);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t21, P::splat(P::lane(t19, 2)), t38);
+        // constant and copied elements
+        let t42 =
+            P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        let t43 =
+            P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        let t44 =
+            P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t45 = P::splat(P::lane(t24, 1)) + t36 - t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t46 = mul_add(t22, P::splat(P::lane(t19, 2)), t40);
+        // legs 4, 5, 6: platform joint from the base point
+        let t47 = t35 + P::splat(P::lane(t24, 0)) - t42;
+        // legs 1, 2, 3: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t37 - t43;
+        // constant and copied elements
+        let t49 =
+            P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+        let t50 =
+            P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
+        let t51 =
+            P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t39 - t49;
+        // constant and copied elements
+        let t53 =
+            P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t54 = P::splat(P::lane(t24, 2)) + t41 - t53;
+        // constant and copied elements
+        let t55 =
+            P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+        let t56 =
+            P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+        let t57 =
+            P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t58 = P::splat(P::lane(t24, 2)) + t46 - t56;
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t59 = mul_add(t54, t57, mul_add(t47, t51, t44 * t45));
+        // constant and copied elements
+        let t60 =
+            P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+        let t61 =
+            P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+        let t62 =
+            P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t63 = t61 * t61;
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t64 = mul_add(t58, t60, mul_add(t52, t55, t48 * t50));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t65 = t62 * t62;
+        // angular velocity of the base
+        let t66 = t1 * P::splat(base_velocity[4]);
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t67 = neg_mul_add(t44, t59, t45);
+        let t68 = neg_mul_add(t51, t59, t47);
+        let t69 = neg_mul_add(t57, t59, t54);
+        // velocity of the platform origin relative to the base
+        let t70 = platform_velocity[1] - base_velocity[1];
+        let t71 = platform_velocity[0] - base_velocity[0];
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t72 = neg_mul_add(t50, t64, t48);
+        let t73 = neg_mul_add(t55, t64, t52);
+        let t74 = neg_mul_add(t60, t64, t58);
+        // angular velocity of the base
+        let t75 = mul_add(t2, P::splat(base_velocity[3]), t66);
+        // velocity of the platform origin relative to the base
+        let t76 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t77 = mul_add(t68, t68, t67 * t67);
+        // angular velocity of the platform
+        let t78 = t1 * P::splat(platform_velocity[4]);
+        // angular velocity of the base
+        let t79 = mul_add(t5, P::splat(base_velocity[5]), t75);
+        // velocity of the platform origin relative to the base
+        let t80 = mul_add(t2, P::splat(t71), t1 * P::splat(t70));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t81 = mul_add(t73, t73, t72 * t72);
+        // platform origin seen from the base
+        let t82 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t83 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // angular velocity of the platform
+        let t84 = mul_add(t2, P::splat(platform_velocity[3]), t78);
+        // constant and copied elements
+        let t85 =
+            P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t86 = sqrt(neg_mul_add(t69, t69, t63) - t77);
+        // angular velocity of the platform
+        let t87 = mul_add(t5, P::splat(platform_velocity[5]), t84);
+        // legs 4, 5, 6: rod's end mass at the Hooke joint
+        let t88 = t85 / t63;
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t89 = sqrt(neg_mul_add(t74, t74, t65) - t81);
+        // angular velocity of the base
+        let t90 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
+        let t91 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+        // constant and copied elements
+        let t92 =
+            P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+        // velocity of the platform origin relative to the base
+        let t93 = neg_mul_add(t82, t90, mul_add(t5, P::splat(t76), t80));
+        // legs 1, 2, 3: rod's end mass at the Hooke joint
+        let t94 = t92 / t65;
+        // angular velocity of the platform relative to the base
+        let t95 = t79 - t87;
+        // constant and copied elements
+        let t96 =
+            P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
+        let t97 =
+            P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+        // legs 4, 5, 6: rod's end mass at the Hooke joint
+        let t98 = w(1.0) - t96;
+        // legs 4, 5, 6: leg mass that moves with the platform joint
+        let t99 = t96 * t97;
+        // constant and copied elements
+        let t100 =
+            P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+        // velocity of the platform origin relative to the base
+        let t101 = mul_add(t83, t91, t93);
+        // constant and copied elements
+        let t102 =
+            P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+        // legs 1, 2, 3: rod's end mass at the Hooke joint
+        let t103 = w(1.0) - t100;
+        // legs 1, 2, 3: leg mass that moves with the platform joint
+        let t104 = t100 * t102;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t105 = neg_mul_add(t41, P::splat(P::lane(t95, 1)), P::splat(P::lane(t101, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t106 = neg_mul_add(t46, P::splat(P::lane(t95, 1)), P::splat(P::lane(t101, 0)));
+        // legs 4, 5, 6: leg mass that moves with the platform joint
+        let t107 = mul_add(t96, t99, t88);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t108 = neg_mul_add(t35, P::splat(P::lane(t95, 2)), P::splat(P::lane(t101, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t109 = neg_mul_add(t39, P::splat(P::lane(t95, 2)), P::splat(P::lane(t101, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t110 = neg_mul_add(t36, P::splat(P::lane(t95, 0)), P::splat(P::lane(t101, 2)));
+        // legs 4, 5, 6: rod's inertial coupling between its ends
+        let t111 = neg_mul_add(t98, t99, t88);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t112 = neg_mul_add(t37, P::splat(P::lane(t95, 0)), P::splat(P::lane(t101, 2)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t113 = mul_add(t36, P::splat(P::lane(t95, 2)), t105);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t114 = mul_add(t37, P::splat(P::lane(t95, 2)), t106);
+        // legs 1, 2, 3: leg mass that moves with the platform joint
+        let t115 = mul_add(t100, t104, t94);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t116 = mul_add(t41, P::splat(P::lane(t95, 0)), t108);
+        // legs 4, 5, 6: reciprocal of that extent
+        let t117 = w(1.0) / t86;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t118 = mul_add(t46, P::splat(P::lane(t95, 0)), t109);
+        // legs 4, 5, 6: actuator length d
+        let t119 = t59 - t86;
+        // legs 1, 2, 3: rod's inertial coupling between its ends
+        let t120 = neg_mul_add(t103, t104, t94);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t121 = mul_add(t35, P::splat(P::lane(t95, 1)), t110);
+        // legs 1, 2, 3: reciprocal of that extent
+        let t122 = w(1.0) / t89;
+        // legs 1, 2, 3: actuator length d
+        let t123 = t64 - t89;
+        // first moment of the rods' couplings by the Hooke joint
+        let t124 = mul_add(t44, t119, t23);
+        // their moment by platform joint and Hooke joint
+        let t125 = t11 * t111;
+        // first moment of the rods' couplings by the Hooke joint
+        let t126 = mul_add(t51, t119, t42);
+        let t127 = mul_add(t50, t123, t43);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t128 = mul_add(t39, P::splat(P::lane(t95, 1)), t112);
+        // second moment of payload and platform-side leg ends
+        let t129 = mul_add(t115, t20 * t20, t15 * t15 * t107);
+        let t130 = mul_add(t115, t14 * t20, t11 * t15 * t107);
+        let t131 = mul_add(t115, t20 * t22, t15 * t21 * t107);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t132 = mul_add(t67, t117, t44);
+        let t133 = mul_add(t68, t117, t51);
+        let t134 = mul_add(t69, t117, t57);
+        // their moment by platform joint and Hooke joint
+        let t135 = t15 * t111;
+        let t136 = t14 * t120;
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t137 = mul_add(t72, t122, t50);
+        let t138 = mul_add(t73, t122, t55);
+        let t139 = mul_add(t74, t122, t60);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t140 = mul_add(t57, t121, mul_add(t51, t113, t44 * t116));
+        // legs 4, 5, 6: rod's end mass at the Hooke joint
+        let t141 = mul_add(t98, t97 * t98, t88);
+        // first moment of the rods' couplings by the Hooke joint
+        let t142 = mul_add(t55, t123, t49);
+        let t143 = mul_add(t57, t119, t53);
+        // their moment by platform joint and Hooke joint
+        let t144 = t20 * t120;
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t145 = mul_add(t121, t134, mul_add(t113, t133, t116 * t132));
+        // their moment by platform joint and Hooke joint
+        let t146 = mul_add(t127, t136, t124 * t125);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t147 = mul_add(t60, t128, mul_add(t55, t114, t50 * t118));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t148 = P::splat(platform_rotation[0][1]) * t11;
+        let t149 = P::splat(platform_rotation[1][1]) * t11;
+        let t150 = P::splat(platform_rotation[2][1]) * t11;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t151 = P::splat(base_rotation[0][1]) * t132;
+        // legs 1, 2, 3: rod's end mass at the Hooke joint
+        let t152 = mul_add(t103, t102 * t103, t94);
+        // constant and copied elements
+        let t153 =
+            P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
+        // their moment by platform joint and Hooke joint
+        let t154 = t21 * t111;
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t155 = neg_mul_add(t44, t140, t116);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t156 = mul_add(t128, t139, mul_add(t114, t138, t118 * t137));
+        // constant and copied elements
+        let t157 =
+            P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t158 = t67 * t117;
+        // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+        let t159 = t141 + t153;
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t160 = t140 - t145;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t161 = P::splat(P::lane(t79, 0)) * t134;
+        // first moment of the rods' couplings by the Hooke joint
+        let t162 = mul_add(t60, t123, t56);
+        // their moment by platform joint and Hooke joint
+        let t163 = mul_add(t127, t144, t124 * t135);
+        let t164 = mul_add(t136, t142, t125 * t126);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t165 = P::splat(platform_rotation[0][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t166 = mul_add(P::splat(platform_rotation[0][0]), t15, t148);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t167 = P::splat(platform_rotation[1][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t168 = mul_add(P::splat(platform_rotation[1][0]), t15, t149);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t169 = P::splat(platform_rotation[2][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t170 = mul_add(P::splat(platform_rotation[2][0]), t15, t150);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t171 = P::splat(base_rotation[0][1]) * t137;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t172 = mul_add(P::splat(base_rotation[0][0]), t133, t151);
+        let t173 = P::splat(base_rotation[1][1]) * t132;
+        let t174 = P::splat(base_rotation[2][1]) * t132;
+        // constant and copied elements
+        let t175 =
+            P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+        // their moment by platform joint and Hooke joint
+        let t176 = t22 * t120;
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t177 = neg_mul_add(t51, t140, t113);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t178 = neg_mul_add(t50, t147, t118);
+        // constant and copied elements
+        let t179 =
+            P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t180 = t68 * t117;
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t181 = t72 * t122;
+        // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+        let t182 = t152 + t175;
+        // second moment of payload and platform-side leg ends
+        let t183 = mul_add(t115, t14 * t14, t107 * (t11 * t11));
+        let t184 = mul_add(t115, t14 * t22, t107 * (t11 * t21));
+        let t185 = P::triple([P::lane(t129, 0), P::lane(t130, 0), P::lane(t131, 0)]);
+        let t186 = P::triple([P::lane(t129, 1), P::lane(t130, 1), P::lane(t131, 1)]);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t187 = t147 - t156;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t188 = P::splat(P::lane(t79, 2)) * t132;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t189 = P::splat(P::lane(t79, 0)) * t139;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t190 = mul_sub(P::splat(P::lane(t79, 2)), t133, t161);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t191 = mul_sub(t119, t159, t153 * t157);
+        // their moment by platform joint and Hooke joint
+        let t192 = mul_add(t142, t144, t126 * t135);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t193 = mul_add(P::splat(platform_rotation[0][0]), t20, t165);
+        let t194 = mul_add(P::splat(platform_rotation[1][0]), t20, t167);
+        let t195 = mul_add(P::splat(platform_rotation[2][0]), t20, t169);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t196 = mul_add(P::splat(base_rotation[0][0]), t138, t171);
+        let t197 = P::splat(base_rotation[1][1]) * t137;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t198 = mul_add(P::splat(base_rotation[1][0]), t133, t173);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t199 = P::splat(base_rotation[2][1]) * t137;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t200 = mul_add(P::splat(base_rotation[2][0]), t133, t174);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t201 = P::splat(base_rotation[0][1]) * t44;
+        let t202 = P::splat(base_rotation[1][1]) * t44;
+        let t203 = P::splat(base_rotation[2][1]) * t44;
+        // their moment by platform joint and Hooke joint
+        let t204 = mul_add(t136, t162, t125 * t143);
+        let t205 = mul_add(t127, t176, t124 * t154);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t206 = neg_mul_add(t55, t147, t114);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t207 = t73 * t122;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t208 = mul_add(P::splat(platform_rotation[0][2]), t21, t166);
+        let t209 = mul_add(P::splat(platform_rotation[1][2]), t21, t168);
+        let t210 = mul_add(P::splat(platform_rotation[2][2]), t21, t170);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t211 = mul_add(P::splat(base_rotation[0][2]), t134, t172);
+        // second moment of payload and platform-side leg ends
+        let t212 = P::triple([P::lane(t129, 2), P::lane(t130, 2), P::lane(t131, 2)]);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t213 = P::splat(base_rotation[0][1]) * t50;
+        let t214 = P::splat(base_rotation[1][1]) * t50;
+        let t215 = P::splat(base_rotation[2][1]) * t50;
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t216 = neg_mul_add(t57, t140, t121);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t217 = P::splat(P::lane(t79, 2)) * t137;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t218 = mul_sub(P::splat(P::lane(t79, 1)), t134, t188);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t219 = mul_sub(P::splat(P::lane(t79, 2)), t138, t189);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t220 = mul_sub(t123, t182, t175 * t179);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t221 = t69 * t117;
+        // second moment of payload and platform-side leg ends
+        let t222 = t185 + t186 + t212;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t223 = mul_add(t117, neg_mul_add(t158, t160, t155), t190);
+        let t224 = P::splat(P::lane(t79, 1)) * t133;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t225 = mul_add(P::splat(base_rotation[1][0]), t138, t197);
+        let t226 = mul_add(P::splat(base_rotation[2][0]), t138, t199);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t227 = mul_add(P::splat(base_rotation[0][0]), t51, t201);
+        let t228 = mul_add(P::splat(base_rotation[1][0]), t51, t202);
+        let t229 = mul_add(P::splat(base_rotation[2][0]), t51, t203);
+        // their moment by platform joint and Hooke joint
+        let t230 = mul_add(t144, t162, t135 * t143);
+        let t231 = mul_add(t142, t176, t126 * t154);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t232 = mul_add(P::splat(platform_rotation[0][2]), t22, t193);
+        let t233 = mul_add(P::splat(platform_rotation[1][2]), t22, t194);
+        let t234 = mul_add(P::splat(platform_rotation[2][2]), t22, t195);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t235 = mul_add(P::splat(base_rotation[0][2]), t139, t196);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t236 = mul_add(P::splat(base_rotation[1][2]), t134, t198);
+        let t237 = mul_add(P::splat(base_rotation[2][2]), t134, t200);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t238 = mul_add(P::splat(base_rotation[0][0]), t55, t213);
+        let t239 = mul_add(P::splat(base_rotation[1][0]), t55, t214);
+        let t240 = mul_add(P::splat(base_rotation[2][0]), t55, t215);
+        // their moment by platform joint and Hooke joint
+        let t241 = P::lane(t146, 2) + (P::lane(t146, 1) + P::lane(t146, 0));
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t242 = neg_mul_add(t60, t147, t128);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t243 = mul_sub(P::splat(P::lane(t79, 1)), t139, t217);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t244 = t74 * t122;
+        // part of the legs' mass matrix on the side of the axes
+        let t245 = t159 * t211;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t246 = mul_add(t117, neg_mul_add(t160, t180, t177), t218);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t247 = mul_add(t122, neg_mul_add(t181, t187, t178), t219);
+        let t248 = P::splat(P::lane(t79, 1)) * t138;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t249 = mul_sub(P::splat(P::lane(t79, 0)), t132, t224);
+        // legs 4, 5, 6: rate of the platform lever
+        let t250 = P::splat(platform_velocity[5]) * t209;
+        let t251 = P::splat(platform_velocity[3]) * t210;
+        let t252 = P::splat(platform_velocity[4]) * t208;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t253 = mul_add(t23, t159, t44 * t191);
+        // second moment of payload and platform-side leg ends
+        let t254 = mul_add(t115, t22 * t22, t107 * (t21 * t21));
+        let t255 = P::lane(t184, 1) + P::lane(t184, 0);
+        // first moment of the rods' couplings by the Hooke joint
+        let t256 = mul_add(t120, t127, t111 * t124);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t257 = P::splat(base_rotation[0][1]) * t223;
+        let t258 = P::splat(base_rotation[1][1]) * t223;
+        let t259 = P::splat(base_rotation[2][1]) * t223;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t260 = mul_add(P::splat(base_rotation[1][2]), t139, t225);
+        let t261 = mul_add(P::splat(base_rotation[2][2]), t139, t226);
+        // their moment by platform joint and Hooke joint
+        let t262 = mul_add(t162, t176, t143 * t154);
+        let t263 = P::lane(t163, 2) + (P::lane(t163, 1) + P::lane(t163, 0));
+        let t264 = P::lane(t164, 2) + (P::lane(t164, 1) + P::lane(t164, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t265 = t182 * t235;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t266 = mul_add(t122, neg_mul_add(t187, t207, t206), t243);
+        let t267 = mul_sub(P::splat(P::lane(t79, 0)), t137, t248);
+        // legs 1, 2, 3: rate of the platform lever
+        let t268 = P::splat(platform_velocity[5]) * t233;
+        // legs 4, 5, 6: rate of the platform lever
+        let t269 = mul_sub(P::splat(platform_velocity[4]), t210, t250);
+        // legs 1, 2, 3: rate of the platform lever
+        let t270 = P::splat(platform_velocity[3]) * t234;
+        // legs 4, 5, 6: rate of the platform lever
+        let t271 = mul_sub(P::splat(platform_velocity[5]), t208, t251);
+        // legs 1, 2, 3: rate of the platform lever
+        let t272 = P::splat(platform_velocity[4]) * t232;
+        // legs 4, 5, 6: rate of the platform lever
+        let t273 = mul_sub(P::splat(platform_velocity[3]), t209, t252);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t274 = mul_add(t43, t182, t50 * t220);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t275 = mul_add(t42, t159, t51 * t191);
+        let t276 = mul_add(t53, t159, t57 * t191);
+        // second moment of payload and platform-side leg ends
+        let t277 = P::triple([P::lane(t222, 1), P::lane(t183, 2), P::lane(t184, 2)]);
+        let t278 = P::triple([c(0.0), P::lane(t183, 1) + P::lane(t183, 0), t255]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t279 = mul_add(t120, t142, t111 * t126);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t280 = mul_add(t117, neg_mul_add(t160, t221, t216), t249);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t281 = P::splat(base_rotation[0][1]) * t247;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t282 = mul_add(P::splat(base_rotation[0][0]), t246, t257);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t283 = P::splat(base_rotation[1][1]) * t247;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t284 = mul_add(P::splat(base_rotation[1][0]), t246, t258);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t285 = P::splat(base_rotation[2][1]) * t247;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t286 = mul_add(P::splat(base_rotation[2][0]), t246, t259);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t287 = P::splat(P::lane(t79, 2)) * t253;
+        // second moment of payload and platform-side leg ends
+        let t288 = t277 + t278;
+        // part of the legs' mass matrix on the side of the axes
+        let t289 = t44 * t111;
+        // their moment by platform joint and Hooke joint
+        let t290 = P::lane(t192, 2) + (P::lane(t192, 1) + P::lane(t192, 0));
+        let t291 = P::mul_add(base_rotation[0][0], t264, base_rotation[0][1] * t241);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t292 = t111 * mul_add(P::splat(base_rotation[0][2]), t57, t227);
+        let t293 = t111 * mul_add(P::splat(base_rotation[1][2]), t57, t228);
+        let t294 = t111 * mul_add(P::splat(base_rotation[2][2]), t57, t229);
+        // part of the legs' mass matrix on the side of the axes
+        let t295 = mul_add(t235, t265, t211 * t245);
+        let t296 = mul_add(t260, t265, t236 * t245);
+        let t297 = mul_add(t261, t265, t237 * t245);
+        // their moment by platform joint and Hooke joint
+        let t298 = P::lane(t204, 2) + (P::lane(t204, 1) + P::lane(t204, 0));
+        let t299 = P::lane(t205, 2) + (P::lane(t205, 1) + P::lane(t205, 0));
+        // legs 1, 2, 3: rate of the platform lever
+        let t300 = mul_sub(P::splat(platform_velocity[4]), t234, t268);
+        let t301 = mul_sub(P::splat(platform_velocity[5]), t232, t270);
+        let t302 = mul_sub(P::splat(platform_velocity[3]), t233, t272);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t303 = mul_add(t49, t182, t55 * t220);
+        let t304 = mul_add(t56, t182, t60 * t220);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t305 = mul_sub(t209, t237, t210 * t236);
+        let t306 = mul_sub(t210, t211, t208 * t237);
+        let t307 = mul_sub(t208, t236, t209 * t211);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t308 = t120 * mul_add(P::splat(base_rotation[0][2]), t60, t238);
+        let t309 = t120 * mul_add(P::splat(base_rotation[1][2]), t60, t239);
+        let t310 = t120 * mul_add(P::splat(base_rotation[2][2]), t60, t240);
+        // their moment by platform joint and Hooke joint
+        let t311 = P::mul_add(base_rotation[2][0], t264, base_rotation[2][1] * t241);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t312 = mul_add(t122, neg_mul_add(t187, t244, t242), t267);
+        let t313 = mul_add(P::splat(base_rotation[0][0]), t266, t281);
+        let t314 = mul_add(P::splat(base_rotation[1][0]), t266, t283);
+        let t315 = mul_add(P::splat(base_rotation[2][0]), t266, t285);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t316 = P::splat(P::lane(t79, 1)) * t275;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t317 = P::splat(P::lane(t79, 2)) * t274;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t318 = mul_sub(P::splat(P::lane(t79, 1)), t276, t287);
+        // Coriolis matrix C_b, natural factorisation
+        let t319 = mul_add(t156, t50 * t136, t145 * (t44 * t125));
+        // part of the legs' mass matrix on the side of the axes
+        let t320 = t51 * t111;
+        let t321 = t50 * t120;
+        let t322 = t159 * t236;
+        let t323 = t159 * t237;
+        // first moment of the rods' couplings by the Hooke joint
+        let t324 = mul_add(t120, t162, t111 * t143);
+        // their moment by platform joint and Hooke joint
+        let t325 = P::mul_add(base_rotation[0][0], t290, base_rotation[0][1] * t263);
+        let t326 = P::mul_add(base_rotation[1][0], t264, base_rotation[1][1] * t241);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t327 = mul_add(P::splat(base_rotation[0][2]), t280, t282);
+        let t328 = mul_add(P::splat(base_rotation[1][2]), t280, t284);
+        let t329 = mul_add(P::splat(base_rotation[2][2]), t280, t286);
+        // their moment by platform joint and Hooke joint
+        let t330 = P::lane(t230, 2) + (P::lane(t230, 1) + P::lane(t230, 0));
+        let t331 = P::lane(t231, 2) + (P::lane(t231, 1) + P::lane(t231, 0));
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t332 = mul_sub(t233, t261, t234 * t260);
+        let t333 = mul_sub(t234, t235, t232 * t261);
+        let t334 = mul_sub(t232, t260, t233 * t235);
+        // their moment by platform joint and Hooke joint
+        let t335 = P::mul_add(base_rotation[2][0], t290, base_rotation[2][1] * t263);
+        // legs 1, 2, 3: moment of that force's rate
+        let t336 = P::splat(base_velocity[4]) * t308;
+        let t337 = P::splat(base_velocity[3]) * t310;
+        let t338 = P::splat(base_velocity[5]) * t309;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t339 = P::splat(P::lane(t79, 1)) * t303;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t340 = P::splat(P::lane(t79, 0)) * t276;
+        let t341 = mul_sub(P::splat(P::lane(t79, 0)), t253, t316);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t342 = mul_sub(P::splat(P::lane(t79, 1)), t304, t317);
+        // Coriolis matrix C_b, natural factorisation
+        let t343 = mul_add(t156, t55 * t136, t145 * (t51 * t125));
+        let t344 = mul_add(t156, t50 * t144, t145 * (t44 * t135));
+        let t345 = mul_add(t156, t60 * t136, t145 * (t57 * t125));
+        // part of the legs' mass matrix on the side of the axes
+        let t346 = t55 * t120;
+        let t347 = mul_add(t235, t321, t211 * t289);
+        let t348 = mul_add(t260, t321, t236 * t289);
+        let t349 = mul_add(t261, t321, t237 * t289);
+        let t350 = t182 * t260;
+        let t351 = t182 * t261;
+        // their moment by platform joint and Hooke joint
+        let t352 = P::mul_add(base_rotation[1][0], t290, base_rotation[1][1] * t263);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t353 = mul_add(P::splat(base_rotation[0][2]), t312, t313);
+        let t354 = mul_add(P::splat(base_rotation[1][2]), t312, t314);
+        let t355 = mul_add(P::splat(base_rotation[2][2]), t312, t315);
+        // second moment of payload and platform-side leg ends
+        let t356 = P::triple([P::lane(t222, 2), P::lane(t288, 2), P::lane(t254, 2)]);
+        let t357 = P::triple([c(0.0), c(0.0), P::lane(t254, 1) + P::lane(t254, 0)]);
+        // legs 4, 5, 6: moment of that force
+        let t358 = mul_sub(t209, t294, t210 * t293);
+        let t359 = mul_sub(t210, t292, t208 * t294);
+        let t360 = mul_sub(t208, t293, t209 * t292);
+        // part of the legs' mass matrix on the side of the axes
+        let t361 = t57 * t111;
+        // first moment of the rods' couplings by the Hooke joint
+        let t362 = P::lane(t256, 2) + (P::lane(t256, 1) + P::lane(t256, 0));
+        // their moment by platform joint and Hooke joint
+        let t363 = P::mul_add(base_rotation[0][2], t330, t325);
+        // constant and copied elements
+        let t364 =
+            P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t365 = P::mul_add(base_rotation[0][0], t331, base_rotation[0][1] * t299);
+        let t366 = P::splat(P::mul_add(base_rotation[0][2], t298, t291)) * t364;
+        let t367 = P::lane(t262, 2) + (P::lane(t262, 1) + P::lane(t262, 0));
+        // legs 1, 2, 3: moment of that force's rate
+        let t368 = mul_sub(P::splat(base_velocity[3]), t309, t336);
+        let t369 = mul_sub(P::splat(base_velocity[5]), t308, t337);
+        let t370 = mul_sub(P::splat(base_velocity[4]), t310, t338);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t371 = P::splat(P::lane(t79, 0)) * t304;
+        let t372 = mul_sub(P::splat(P::lane(t79, 0)), t274, t339);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t373 = mul_sub(P::splat(P::lane(t79, 2)), t275, t340);
+        // Coriolis matrix C_b, natural factorisation
+        let t374 = mul_add(t156, t55 * t144, t145 * (t51 * t135));
+        let t375 = mul_add(t156, t60 * t144, t145 * (t57 * t135));
+        // part of the legs' mass matrix on the side of the axes
+        let t376 = mul_add(t235, t346, t211 * t320);
+        let t377 = mul_add(t260, t346, t236 * t320);
+        let t378 = mul_add(t261, t346, t237 * t320);
+        let t379 = mul_add(t265, t332, t245 * t305);
+        let t380 = mul_add(t265, t333, t245 * t306);
+        let t381 = mul_add(t265, t334, t245 * t307);
+        let t382 = mul_add(t260, t350, t236 * t322);
+        let t383 = mul_add(t261, t350, t237 * t322);
+        let t384 = mul_add(t332, t350, t305 * t322);
+        let t385 = mul_add(t333, t350, t306 * t322);
+        let t386 = mul_add(t334, t350, t307 * t322);
+        let t387 = mul_add(t332, t351, t305 * t323);
+        let t388 = mul_add(t333, t351, t306 * t323);
+        let t389 = mul_add(t334, t351, t307 * t323);
+        let t390 = P::triple([P::lane(t295, 0), P::lane(t296, 0), P::lane(t297, 0)]);
+        let t391 = P::triple([P::lane(t295, 1), P::lane(t296, 1), P::lane(t297, 1)]);
+        // constant and copied elements
+        let t392 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t393 = P::mul_add(base_rotation[2][2], t330, t335);
+        let t394 = P::mul_add(base_rotation[2][0], t331, base_rotation[2][1] * t299);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t395 = mul_add(t209, t329, mul_sub(t237, t271, t236 * t273));
+        let t396 = mul_add(t210, t327, mul_sub(t211, t273, t237 * t269));
+        let t397 = mul_add(t208, t328, mul_sub(t236, t269, t211 * t271));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t398 = mul_sub(t51, t341, t57 * t318);
+        // Coriolis matrix C_b, natural factorisation
+        let t399 = mul_add(t156, t50 * t176, t145 * (t44 * t154));
+        // second moment of payload and platform-side leg ends
+        let t400 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        // legs 1, 2, 3: moment of that force
+        let t401 = mul_sub(t233, t310, t234 * t309);
+        let t402 = mul_sub(t234, t308, t232 * t310);
+        let t403 = mul_sub(t232, t309, t233 * t308);
+        // part of the legs' mass matrix on the side of the axes
+        let t404 = t60 * t120;
+        // first moment of the rods' couplings by the Hooke joint
+        let t405 = P::lane(t279, 2) + (P::lane(t279, 1) + P::lane(t279, 0));
+        // constant and copied elements
+        let t406 =
+            P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+        // their moment by platform joint and Hooke joint
+        let t407 = P::mul_add(base_rotation[1][2], t330, t352);
+        let t408 = P::mul_add(base_rotation[1][0], t331, base_rotation[1][1] * t299);
+        let t409 = P::splat(P::mul_add(base_rotation[2][2], t298, t311)) * t364;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t410 = mul_add(t265, t353, t245 * t327);
+        let t411 = mul_add(t346, t353, t320 * t327);
+        let t412 = mul_add(t265, t354, t245 * t328);
+        let t413 = mul_add(t346, t354, t320 * t328);
+        let t414 = mul_add(t265, t355, t245 * t329);
+        let t415 = mul_add(t346, t355, t320 * t329);
+        let t416 = mul_add(t350, t353, t322 * t327);
+        let t417 = mul_add(t350, t354, t322 * t328);
+        let t418 = mul_add(t350, t355, t322 * t329);
+        let t419 = mul_add(t351, t353, t323 * t327);
+        let t420 = mul_add(t351, t354, t323 * t328);
+        let t421 = mul_add(t351, t355, t323 * t329);
+        // part of the legs' mass matrix on the side of the axes
+        let t422 = t159 * t305;
+        // their moment by platform joint and Hooke joint
+        let t423 = P::mul_add(base_rotation[0][2], t367, t365);
+        let t424 = t364 * P::splat(P::mul_add(base_rotation[1][2], t298, t326));
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t425 = mul_sub(P::splat(P::lane(t79, 2)), t303, t371);
+        // part of the legs' mass matrix on the side of the axes
+        let t426 = P::triple([P::lane(t295, 2), P::lane(t296, 2), P::lane(t297, 2)]);
+        // constant and copied elements
+        let t427 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t428 = mul_add(t233, t355, mul_sub(t261, t301, t260 * t302));
+        let t429 = mul_add(t234, t353, mul_sub(t235, t302, t261 * t300));
+        let t430 = mul_add(t232, t354, mul_sub(t260, t300, t235 * t301));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t431 = mul_sub(t57, t373, t44 * t341);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t432 = mul_sub(t55, t372, t60 * t342);
+        // Coriolis matrix C_b, natural factorisation
+        let t433 = mul_add(t156, t55 * t176, t145 * (t51 * t154));
+        let t434 = mul_add(t156, t60 * t176, t145 * (t57 * t154));
+        // second moment of payload and platform-side leg ends
+        let t435 = t400 + parameters.payload_inertia[2][2];
+        // part of the legs' mass matrix on the side of the axes
+        let t436 = mul_add(t235, t404, t211 * t361);
+        let t437 = mul_add(t260, t404, t236 * t361);
+        let t438 = mul_add(t261, t404, t237 * t361);
+        let t439 = t390 + t391 + t426;
+        // first moment of the rods' couplings by the Hooke joint
+        let t440 = mul_add(P::splat(t405), t427, P::splat(t362) * t392);
+        // their moment by platform joint and Hooke joint
+        let t441 = mul_add(P::splat(t393), t406, t409);
+        let t442 = P::mul_add(base_rotation[2][2], t367, t394);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t443 = neg_mul_add(t210, t328, t395);
+        let t444 = neg_mul_add(t208, t329, t396);
+        let t445 = neg_mul_add(t209, t327, t397);
+        // Coriolis matrix C_b, natural factorisation
+        let t446 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t447 = mul_add(t235, t401, t211 * t358);
+        let t448 = mul_add(t260, t401, t236 * t358);
+        let t449 = mul_add(t261, t401, t237 * t358);
+        let t450 = t182 * t332;
+        let t451 = mul_add(t235, t402, t211 * t359);
+        let t452 = mul_add(t260, t402, t236 * t359);
+        let t453 = mul_add(t261, t402, t237 * t359);
+        let t454 = mul_add(t235, t403, t211 * t360);
+        let t455 = mul_add(t260, t403, t236 * t360);
+        let t456 = mul_add(t261, t403, t237 * t360);
+        let t457 = P::triple([P::lane(t347, 0), P::lane(t348, 0), P::lane(t349, 0)]);
+        let t458 = P::triple([P::lane(t347, 1), P::lane(t348, 1), P::lane(t349, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t459 = P::lane(t324, 2) + (P::lane(t324, 1) + P::lane(t324, 0));
+        // constant and copied elements
+        let t460 =
+            P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+        // their moment by platform joint and Hooke joint
+        let t461 = P::mul_add(base_rotation[1][2], t367, t408);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t462 = mul_add(t321, t353, t289 * t327);
+        let t463 = mul_add(t321, t354, t289 * t328);
+        let t464 = mul_add(t321, t355, t289 * t329);
+        // second moment of payload and platform-side leg ends
+        let t465 = P::triple([P::lane(t222, 0), P::lane(t288, 1), P::lane(t356 + t357, 2)]);
+        // their moment by platform joint and Hooke joint
+        let t466 = mul_add(P::splat(t423), t460, mul_add(P::splat(t363), t406, t366));
+        // legs 1, 2, 3: moment of that force's rate
+        let t467 = mul_sub(t233, t368, t234 * t369);
+        let t468 = mul_sub(t234, t370, t232 * t368);
+        let t469 = mul_sub(t232, t369, t233 * t370);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t470 = mul_sub(t60, t425, t50 * t372);
+        // Coriolis matrix C_b, natural factorisation
+        let t471 = mul_add(t156, t321, t145 * t289);
+        // constant and copied elements
+        let t472 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t473 = neg_mul_add(t234, t354, t428);
+        let t474 = neg_mul_add(t232, t355, t429);
+        let t475 = neg_mul_add(t233, t353, t430);
+        // legs 4, 5, 6: moment of that force's rate
+        let t476 = P::splat(base_velocity[4]) * t292;
+        let t477 = P::splat(base_velocity[3]) * t294;
+        let t478 = P::splat(base_velocity[5]) * t293;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t479 = mul_sub(t44, t318, t51 * t373);
+        // Coriolis matrix C_b, natural factorisation
+        let t480 = mul_add(t235, t432, t211 * t398);
+        let t481 = mul_add(t260, t432, t236 * t398);
+        let t482 = mul_add(t261, t432, t237 * t398);
+        let t483 = P::lane(t343, 2) + (P::lane(t343, 1) + P::lane(t343, 0));
+        let t484 = P::lane(t344, 2) + (P::lane(t344, 1) + P::lane(t344, 0));
+        let t485 = P::lane(t345, 2) + (P::lane(t345, 1) + P::lane(t345, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t486 = mul_add(t261, t351, t237 * t323);
+        let t487 = mul_add(t332, t450, t305 * t422);
+        let t488 = mul_add(t333, t450, t306 * t422);
+        let t489 = mul_add(t334, t450, t307 * t422);
+        let t490 = P::triple([P::lane(t376, 0), P::lane(t377, 0), P::lane(t378, 0)]);
+        let t491 = P::triple([P::lane(t376, 1), P::lane(t377, 1), P::lane(t378, 1)]);
+        let t492 = P::triple([P::lane(t347, 2), P::lane(t348, 2), P::lane(t349, 2)]);
+        let t493 = P::triple([P::lane(t379, 0), P::lane(t380, 0), P::lane(t381, 0)]);
+        let t494 = P::triple([P::lane(t379, 1), P::lane(t380, 1), P::lane(t381, 1)]);
+        let t495 = P::lane(t383, 1) + P::lane(t383, 0);
+        let t496 = P::triple([P::lane(t384, 0), P::lane(t385, 0), P::lane(t386, 0)]);
+        let t497 = P::triple([P::lane(t384, 1), P::lane(t385, 1), P::lane(t386, 1)]);
+        let t498 = P::triple([P::lane(t387, 0), P::lane(t388, 0), P::lane(t389, 0)]);
+        let t499 = P::triple([P::lane(t387, 1), P::lane(t388, 1), P::lane(t389, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t500 = mul_add(P::splat(t459), t472, t440);
+        // their moment by platform joint and Hooke joint
+        let t501 = mul_add(P::splat(t442), t460, t441);
+        // mass matrix M_b that couples the base acceleration
+        let t502 = t57 * t159;
+        // part of the legs' mass matrix on the side of the axes
+        let t503 = t457 + t458 + t492;
+        // their moment by platform joint and Hooke joint
+        let t504 = mul_add(t460, P::splat(t461), mul_add(t406, P::splat(t407), t424));
+        // mass matrix M_b that couples the base acceleration
+        let t505 = t44 * t159;
+        // legs 1, 2, 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t506 = neg_mul_add(t182, t332, t401);
+        let t507 = neg_mul_add(t182, t333, t402);
+        let t508 = neg_mul_add(t182, t334, t403);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t509 = mul_add(t353, t404, t327 * t361);
+        let t510 = mul_add(t354, t404, t328 * t361);
+        let t511 = mul_add(t355, t404, t329 * t361);
+        let t512 = P::triple([P::lane(t410, 0), P::lane(t412, 0), P::lane(t414, 0)]);
+        let t513 = P::triple([P::lane(t410, 1), P::lane(t412, 1), P::lane(t414, 1)]);
+        let t514 = P::triple([P::lane(t416, 0), P::lane(t417, 0), P::lane(t418, 0)]);
+        let t515 = P::triple([P::lane(t416, 1), P::lane(t417, 1), P::lane(t418, 1)]);
+        let t516 = P::triple([P::lane(t419, 0), P::lane(t420, 0), P::lane(t421, 0)]);
+        let t517 = P::triple([P::lane(t419, 1), P::lane(t420, 1), P::lane(t421, 1)]);
+        let t518 = P::triple([P::lane(t411, 0), P::lane(t413, 0), P::lane(t415, 0)]);
+        let t519 = P::triple([P::lane(t411, 1), P::lane(t413, 1), P::lane(t415, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t520 = mul_add(t156, t346, t145 * t320);
+        let t521 = mul_add(t156, t404, t145 * t361);
+        let t522 = mul_add(t334, t432, t307 * t398);
+        // constant and copied elements
+        let t523 =
+            P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+        let t524 =
+            P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+        // part of the legs' mass matrix on the side of the axes
+        let t525 = t159 * t306;
+        // legs 4, 5, 6: moment of that force's rate
+        let t526 = mul_sub(P::splat(base_velocity[3]), t293, t476);
+        let t527 = mul_sub(P::splat(base_velocity[5]), t292, t477);
+        let t528 = mul_sub(P::splat(base_velocity[4]), t294, t478);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t529 = mul_sub(t50, t342, t55 * t425);
+        // Coriolis matrix C_b, natural factorisation
+        let t530 = mul_add(t235, t470, t211 * t431);
+        let t531 = mul_add(t260, t470, t236 * t431);
+        let t532 = mul_add(t261, t470, t237 * t431);
+        let t533 = mul_add(t332, t432, t305 * t398);
+        let t534 = mul_add(t333, t432, t306 * t398);
+        let t535 = P::lane(t374, 2) + (P::lane(t374, 1) + P::lane(t374, 0));
+        let t536 = P::mul_add(platform_rotation[0][0], t484, platform_rotation[0][1] * t446);
+        let t537 = P::lane(t375, 2) + (P::lane(t375, 1) + P::lane(t375, 0));
+        let t538 = P::mul_add(platform_rotation[1][0], t484, platform_rotation[1][1] * t446);
+        // second moment of payload and platform-side leg ends
+        let t539 = mul_add(P::splat(t435), w(0.5), t465) - t524;
+        // part of the legs' mass matrix on the side of the axes
+        let t540 = P::triple([P::lane(t376, 2), P::lane(t377, 2), P::lane(t378, 2)]);
+        let t541 = P::triple([P::lane(t379, 2), P::lane(t380, 2), P::lane(t381, 2)]);
+        let t542 = P::triple([P::lane(t439, 1), P::lane(t382, 2), P::lane(t383, 2)]);
+        let t543 = P::triple([c(0.0), P::lane(t382, 1) + P::lane(t382, 0), t495]);
+        let t544 = P::triple([P::lane(t384, 2), P::lane(t385, 2), P::lane(t386, 2)]);
+        let t545 = P::triple([P::lane(t387, 2), P::lane(t388, 2), P::lane(t389, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t546 = t51 * t159;
+        let t547 = t60 * t182;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t548 = mul_add(t265, t473, t245 * t443);
+        let t549 = mul_add(t346, t473, t320 * t443);
+        let t550 = mul_add(t265, t474, t245 * t444);
+        let t551 = mul_add(t346, t474, t320 * t444);
+        let t552 = mul_add(t265, t475, t245 * t445);
+        let t553 = mul_add(t346, t475, t320 * t445);
+        let t554 = mul_add(t351, t473, t323 * t443);
+        let t555 = mul_add(t351, t474, t323 * t444);
+        let t556 = mul_add(t351, t475, t323 * t445);
+        // Coriolis matrix C_b, natural factorisation
+        let t557 = P::lane(t399, 2) + (P::lane(t399, 1) + P::lane(t399, 0));
+        // first moment of payload and platform-side leg ends
+        let t558 = mul_add(t20, t115, t15 * t107);
+        let t559 = mul_add(t14, t115, t11 * t107);
+        let t560 = mul_add(t22, t115, t21 * t107);
+        // constant and copied elements
+        let t561 =
+            P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+        let t562 =
+            P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+        // part of the legs' mass matrix on the side of the axes
+        let t563 = mul_add(t321, t332, t289 * t305);
+        let t564 = mul_add(t321, t333, t289 * t306);
+        let t565 = mul_add(t321, t334, t289 * t307);
+        let t566 = t490 + t491 + t540;
+        let t567 = P::splat(base_rotation[0][1]) * t503;
+        let t568 = P::triple([P::lane(t436, 0), P::lane(t437, 0), P::lane(t438, 0)]);
+        let t569 = P::triple([P::lane(t436, 1), P::lane(t437, 1), P::lane(t438, 1)]);
+        let t570 = t493 + t494 + t541;
+        let t571 = t542 + t543;
+        let t572 = P::splat(base_rotation[1][1]) * t503;
+        let t573 = t496 + t497 + t544;
+        let t574 = P::splat(base_rotation[2][1]) * t503;
+        let t575 = t498 + t499 + t545;
+        // mass matrix M_b that couples the base acceleration
+        let t576 = t50 * t182;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t577 = mul_add(t350, t473, t322 * t443);
+        let t578 = mul_add(t350, t474, t322 * t444);
+        let t579 = mul_add(t350, t475, t322 * t445);
+        let t580 = P::triple([P::lane(t410, 2), P::lane(t412, 2), P::lane(t414, 2)]);
+        let t581 = P::triple([P::lane(t416, 2), P::lane(t417, 2), P::lane(t418, 2)]);
+        let t582 = P::triple([P::lane(t419, 2), P::lane(t420, 2), P::lane(t421, 2)]);
+        let t583 = P::triple([P::lane(t411, 2), P::lane(t413, 2), P::lane(t415, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t584 = mul_add(t334, t470, t307 * t431);
+        // part of the legs' mass matrix on the side of the axes
+        let t585 = mul_add(t332, t401, t305 * t358);
+        let t586 = mul_add(t333, t401, t306 * t358);
+        let t587 = mul_add(t334, t401, t307 * t358);
+        let t588 = mul_add(t332, t402, t305 * t359);
+        let t589 = t182 * t333;
+        let t590 = mul_add(t333, t402, t306 * t359);
+        let t591 = mul_add(t334, t402, t307 * t359);
+        let t592 = mul_add(t332, t403, t305 * t360);
+        let t593 = mul_add(t333, t403, t306 * t360);
+        let t594 = mul_add(t334, t403, t307 * t360);
+        let t595 = P::triple([P::lane(t447, 0), P::lane(t448, 0), P::lane(t449, 0)]);
+        let t596 = P::triple([P::lane(t447, 1), P::lane(t448, 1), P::lane(t449, 1)]);
+        let t597 = P::triple([P::lane(t451, 0), P::lane(t452, 0), P::lane(t453, 0)]);
+        let t598 = P::triple([P::lane(t451, 1), P::lane(t452, 1), P::lane(t453, 1)]);
+        let t599 = P::triple([P::lane(t454, 0), P::lane(t455, 0), P::lane(t456, 0)]);
+        let t600 = P::triple([P::lane(t454, 1), P::lane(t455, 1), P::lane(t456, 1)]);
+        // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t601 = neg_mul_add(t159, t305, t358);
+        let t602 = neg_mul_add(t159, t306, t359);
+        let t603 = neg_mul_add(t159, t307, t360);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t604 = P::triple([P::lane(t462, 0), P::lane(t463, 0), P::lane(t464, 0)]);
+        let t605 = P::triple([P::lane(t462, 1), P::lane(t463, 1), P::lane(t464, 1)]);
+        let t606 = t518 + t519 + t583;
+        // Coriolis matrix C_b, natural factorisation
+        let t607 = mul_add(t332, t470, t305 * t431);
+        let t608 = mul_add(t333, t470, t306 * t431);
+        let t609 = P::mul_add(platform_rotation[0][0], t535, platform_rotation[0][1] * t483);
+        let t610 = P::mul_add(platform_rotation[0][0], t537, platform_rotation[0][1] * t485);
+        let t611 = P::mul_add(platform_rotation[1][0], t535, platform_rotation[1][1] * t483);
+        let t612 = P::mul_add(platform_rotation[1][0], t537, platform_rotation[1][1] * t485);
+        let t613 = P::mul_add(platform_rotation[2][0], t484, platform_rotation[2][1] * t446);
+        // second moment of payload and platform-side leg ends
+        let t614 = mul_add(t523 * t523, P::splat(parameters.payload_mass), t539);
+        // mass matrix M_b that couples the base acceleration
+        let t615 = t55 * t182;
+        let t616 = mul_sub(t53, t546, t42 * t502);
+        // Coriolis matrix C_b, natural factorisation
+        let t617 = mul_add(t235, t529, t211 * t479);
+        let t618 = mul_add(t260, t529, t236 * t479);
+        let t619 = mul_add(t261, t529, t237 * t479);
+        let t620 = P::lane(t433, 2) + (P::lane(t433, 1) + P::lane(t433, 0));
+        let t621 = P::mul_add(platform_rotation[0][2], t557, t536);
+        let t622 = P::lane(t434, 2) + (P::lane(t434, 1) + P::lane(t434, 0));
+        let t623 = base_velocity[4] * P::lane(t501, 0);
+        let t624 = P::mul_add(platform_rotation[1][2], t557, t538);
+        let t625 = base_velocity[5] * P::lane(t466, 1);
+        // second moment of payload and platform-side leg ends
+        let t626 = P::triple([P::lane(t222, 1), P::lane(t288, 2), P::lane(t222, 2)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t627 = mul_add(t332, t346, t305 * t320);
+        let t628 = mul_add(t333, t346, t306 * t320);
+        let t629 = mul_add(t334, t346, t307 * t320);
+        let t630 = mul_add(P::splat(base_rotation[0][0]), t566, t567);
+        let t631 = P::triple([P::lane(t436, 2), P::lane(t437, 2), P::lane(t438, 2)]);
+        let t632 = mul_add(P::splat(base_rotation[1][0]), t566, t572);
+        let t633 = mul_add(P::splat(base_rotation[2][0]), t566, t574);
+        // mass matrix M_b that couples the base acceleration
+        let t634 = mul_sub(t23, t502, t53 * t505);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t635 = mul_add(t321, t473, t289 * t443);
+        let t636 = mul_add(t321, t474, t289 * t444);
+        let t637 = mul_add(t321, t475, t289 * t445);
+        // part of the legs' mass matrix on the side of the axes
+        let t638 = mul_add(t333, t589, t306 * t525);
+        let t639 = mul_add(t334, t589, t307 * t525);
+        let t640 = t568 + t569 + t631;
+        let t641 = P::triple([P::lane(t447, 2), P::lane(t448, 2), P::lane(t449, 2)]);
+        let t642 = P::triple([P::lane(t487, 0), P::lane(t488, 0), P::lane(t489, 0)]);
+        let t643 = P::triple([P::lane(t487, 1), P::lane(t488, 1), P::lane(t489, 1)]);
+        let t644 = P::triple([P::lane(t451, 2), P::lane(t452, 2), P::lane(t453, 2)]);
+        let t645 = P::triple([P::lane(t454, 2), P::lane(t455, 2), P::lane(t456, 2)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t646 = P::triple([P::lane(t462, 2), P::lane(t463, 2), P::lane(t464, 2)]);
+        let t647 = neg_mul_add(P::splat(base_rotation[0][0]), t606, t512 + t513 + t580);
+        let t648 = neg_mul_add(P::splat(base_rotation[1][0]), t606, t514 + t515 + t581);
+        let t649 = neg_mul_add(P::splat(base_rotation[2][0]), t606, t516 + t517 + t582);
+        // Coriolis matrix C_b, natural factorisation
+        let t650 = mul_add(t334, t529, t307 * t479);
+        let t651 = base_velocity[4] * P::lane(t500, 0);
+        let t652 = base_velocity[3] * P::lane(t500, 2);
+        let t653 = base_velocity[5] * P::lane(t500, 1);
+        let t654 = P::mul_add(platform_rotation[2][0], t535, platform_rotation[2][1] * t483);
+        let t655 = P::mul_add(platform_rotation[2][0], t537, platform_rotation[2][1] * t485);
+        // part of the legs' mass matrix on the side of the axes
+        let t656 = t595 + t596 + t641;
+        let t657 = t597 + t598 + t644;
+        let t658 = t599 + t600 + t645;
+        // mass matrix M_b that couples the base acceleration
+        let t659 = mul_sub(t56, t615, t49 * t547);
+        // legs 4, 5, 6: moment of that force's rate
+        let t660 = mul_sub(t209, t526, t210 * t527);
+        let t661 = mul_sub(t210, t528, t208 * t526);
+        let t662 = mul_sub(t208, t527, t209 * t528);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t663 = mul_add(t327, t601, mul_add(t353, t506, t235 * t467));
+        let t664 = mul_add(t328, t601, mul_add(t354, t506, t260 * t467));
+        let t665 = mul_add(t329, t601, mul_add(t355, t506, t261 * t467));
+        let t666 = mul_add(t327, t602, mul_add(t353, t507, t235 * t468));
+        let t667 = mul_add(t328, t602, mul_add(t354, t507, t260 * t468));
+        let t668 = mul_add(t329, t602, mul_add(t355, t507, t261 * t468));
+        let t669 = mul_add(t327, t603, mul_add(t353, t508, t235 * t469));
+        let t670 = mul_add(t328, t603, mul_add(t354, t508, t260 * t469));
+        let t671 = mul_add(t329, t603, mul_add(t355, t508, t261 * t469));
+        let t672 = P::triple([P::lane(t509, 0), P::lane(t510, 0), P::lane(t511, 0)]);
+        let t673 = P::triple([P::lane(t509, 1), P::lane(t510, 1), P::lane(t511, 1)]);
+        let t674 = t604 + t605 + t646;
+        // Coriolis matrix C_b, natural factorisation
+        let t675 = mul_add(t332, t529, t305 * t479);
+        let t676 = mul_add(t333, t529, t306 * t479);
+        let t677 = P::lane(t471, 2) + (P::lane(t471, 1) + P::lane(t471, 0));
+        let t678 = P::mul_add(platform_rotation[0][2], t620, t609);
+        let t679 = P::mul_add(platform_rotation[0][2], t622, t610);
+        let t680 = P::mul_sub(base_velocity[5], P::lane(t504, 0), t623);
+        let t681 = P::mul_add(platform_rotation[1][2], t620, t611);
+        let t682 = P::mul_add(platform_rotation[1][2], t622, t612);
+        let t683 = P::mul_add(platform_rotation[2][2], t557, t613);
+        let t684 = P::mul_sub(base_velocity[3], P::lane(t501, 1), t625);
+        let t685 = base_velocity[3] * P::lane(t504, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t686 = mul_sub(t43, t547, t56 * t576);
+        // Coriolis matrix C_b, natural factorisation
+        let t687 = P::lane(t480, 2) + (P::lane(t480, 1) + P::lane(t480, 0));
+        let t688 = P::lane(t481, 2) + (P::lane(t481, 1) + P::lane(t481, 0));
+        let t689 = P::lane(t482, 2) + (P::lane(t482, 1) + P::lane(t482, 0));
+        // constant and copied elements
+        let t690 =
+            P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+        // part of the legs' mass matrix on the side of the axes
+        let t691 = mul_add(t332, t404, t305 * t361);
+        let t692 = mul_add(t333, t404, t306 * t361);
+        let t693 = mul_add(t334, t404, t307 * t361);
+        let t694 = mul_add(P::splat(base_rotation[0][2]), t640, t630);
+        let t695 = mul_add(P::splat(base_rotation[1][2]), t640, t632);
+        let t696 = P::triple([P::lane(t439, 2), P::lane(t571, 2), P::lane(t486, 2)]);
+        let t697 = P::triple([c(0.0), c(0.0), P::lane(t486, 1) + P::lane(t486, 0)]);
+        let t698 = mul_add(P::splat(base_rotation[2][2]), t640, t633);
+        let t699 = P::triple([P::lane(t570, 0), P::lane(t573, 0), P::lane(t575, 0)]);
+        let t700 = P::triple([P::lane(t487, 2), P::lane(t488, 2), P::lane(t489, 2)]);
+        let t701 = P::triple([P::lane(t570, 1), P::lane(t573, 1), P::lane(t575, 1)]);
+        let t702 = P::triple([P::lane(t570, 2), P::lane(t573, 2), P::lane(t575, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t703 = mul_sub(t42, t505, t23 * t546);
+        // legs 4, 5, 6: moment of that force by the rate of the lever
+        let t704 = mul_sub(t271, t294, t273 * t293);
+        let t705 = mul_sub(t273, t292, t269 * t294);
+        let t706 = mul_sub(t269, t293, t271 * t292);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t707 = mul_add(t404, t473, t361 * t443);
+        let t708 = mul_add(t404, t474, t361 * t444);
+        let t709 = mul_add(t404, t475, t361 * t445);
+        let t710 = P::triple([P::lane(t548, 0), P::lane(t550, 0), P::lane(t552, 0)]);
+        let t711 = P::triple([P::lane(t548, 1), P::lane(t550, 1), P::lane(t552, 1)]);
+        let t712 = P::triple([P::lane(t554, 0), P::lane(t555, 0), P::lane(t556, 0)]);
+        let t713 = P::triple([P::lane(t554, 1), P::lane(t555, 1), P::lane(t556, 1)]);
+        let t714 = P::triple([P::lane(t549, 0), P::lane(t551, 0), P::lane(t553, 0)]);
+        let t715 = P::triple([P::lane(t549, 1), P::lane(t551, 1), P::lane(t553, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t716 = P::mul_sub(base_velocity[3], P::lane(t500, 1), t651);
+        let t717 = P::mul_sub(base_velocity[5], P::lane(t500, 0), t652);
+        let t718 = P::mul_sub(base_velocity[4], P::lane(t500, 2), t653);
+        // first moment of payload and platform-side leg ends
+        let t719 = P::triple([P::lane(t558, 0), P::lane(t559, 0), P::lane(t560, 0)]);
+        let t720 = P::triple([P::lane(t558, 1), P::lane(t559, 1), P::lane(t560, 1)]);
+        // second moment of payload and platform-side leg ends
+        let t721 = mul_add(t561 * t562, P::splat(parameters.payload_mass), t626) - t690;
+        // part of the legs' mass matrix on the side of the axes
+        let t722 = P::triple([P::lane(t563, 0), P::lane(t564, 0), P::lane(t565, 0)]);
+        let t723 = P::triple([P::lane(t563, 1), P::lane(t564, 1), P::lane(t565, 1)]);
+        let t724 = t699 - t656;
+        let t725 = t642 + t643 + t700;
+        let t726 = t701 - t657;
+        let t727 = t702 - t658;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t728 = P::triple([P::lane(t577, 0), P::lane(t578, 0), P::lane(t579, 0)]);
+        let t729 = P::triple([P::lane(t577, 1), P::lane(t578, 1), P::lane(t579, 1)]);
+        let t730 = P::triple([P::lane(t509, 2), P::lane(t510, 2), P::lane(t511, 2)]);
+        let t731 = mul_sub(P::splat(base_rotation[0][1]), t674, t647);
+        let t732 = mul_sub(P::splat(base_rotation[1][1]), t674, t648);
+        let t733 = mul_sub(P::splat(base_rotation[2][1]), t674, t649);
+        // Coriolis matrix C_b, natural factorisation
+        let t734 = P::lane(t520, 2) + (P::lane(t520, 1) + P::lane(t520, 0));
+        let t735 = P::lane(t521, 2) + (P::lane(t521, 1) + P::lane(t521, 0));
+        let t736 = P::mul_add(platform_rotation[2][2], t620, t654);
+        let t737 = P::mul_add(platform_rotation[2][2], t622, t655);
+        let t738 = P::mul_sub(base_velocity[4], P::lane(t466, 2), t685);
+        let t739 = P::lane(t522, 2) + (P::lane(t522, 1) + P::lane(t522, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t740 = P::triple([P::lane(t585, 0), P::lane(t586, 0), P::lane(t587, 0)]);
+        let t741 = P::triple([P::lane(t585, 1), P::lane(t586, 1), P::lane(t587, 1)]);
+        let t742 = P::triple([P::lane(t588, 0), P::lane(t590, 0), P::lane(t591, 0)]);
+        let t743 = P::triple([P::lane(t588, 1), P::lane(t590, 1), P::lane(t591, 1)]);
+        let t744 = P::triple([P::lane(t592, 0), P::lane(t593, 0), P::lane(t594, 0)]);
+        let t745 = P::triple([P::lane(t592, 1), P::lane(t593, 1), P::lane(t594, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t746 = mul_add(t235, t576, t211 * t505);
+        let t747 = mul_add(t260, t576, t236 * t505);
+        let t748 = mul_add(t261, t576, t237 * t505);
+        let t749 = mul_add(t332, t659, t305 * t616);
+        let t750 = mul_add(t333, t659, t306 * t616);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t751 = mul_add(t211, t660, t663);
+        let t752 = mul_add(t236, t660, t664);
+        let t753 = mul_add(t237, t660, t665);
+        let t754 = mul_add(t211, t661, t666);
+        let t755 = mul_add(t236, t661, t667);
+        let t756 = mul_add(t237, t661, t668);
+        let t757 = mul_add(t211, t662, t669);
+        let t758 = mul_add(t236, t662, t670);
+        let t759 = mul_add(t237, t662, t671);
+        let t760 = t672 + t673 + t730;
+        // Coriolis matrix C_b, natural factorisation
+        let t761 = P::lane(t530, 2) + (P::lane(t530, 1) + P::lane(t530, 0));
+        let t762 = P::lane(t531, 2) + (P::lane(t531, 1) + P::lane(t531, 0));
+        let t763 = P::lane(t532, 2) + (P::lane(t532, 1) + P::lane(t532, 0));
+        let t764 = P::lane(t533, 2) + (P::lane(t533, 1) + P::lane(t533, 0));
+        let t765 = P::mul_add(base_rotation[0][0], t678, base_rotation[0][1] * t621);
+        let t766 = P::mul_add(base_rotation[1][0], t681, base_rotation[1][1] * t624);
+        let t767 = P::lane(t534, 2) + (P::lane(t534, 1) + P::lane(t534, 0));
+        // mass matrix M_b that couples the base acceleration
+        let t768 = mul_sub(t49, t576, t43 * t615);
+        let t769 = mul_add(t14, t120, t125);
+        let t770 = mul_add(t332, t686, t305 * t634);
+        let t771 = mul_add(t333, t686, t306 * t634);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t772 = mul_sub(t301, t310, t302 * t309);
+        let t773 = mul_sub(t302, t308, t300 * t310);
+        let t774 = mul_sub(t300, t309, t301 * t308);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t775 = mul_add(t443, t601, mul_add(t473, t506, t332 * t467));
+        let t776 = mul_add(t444, t601, mul_add(t474, t506, t333 * t467));
+        let t777 = mul_add(t445, t601, mul_add(t475, t506, t334 * t467));
+        let t778 = mul_add(t443, t602, mul_add(t473, t507, t332 * t468));
+        let t779 = mul_add(t444, t602, mul_add(t474, t507, t333 * t468));
+        let t780 = mul_add(t445, t602, mul_add(t475, t507, t334 * t468));
+        let t781 = P::triple([P::lane(t548, 2), P::lane(t550, 2), P::lane(t552, 2)]);
+        let t782 = P::triple([P::lane(t554, 2), P::lane(t555, 2), P::lane(t556, 2)]);
+        let t783 = P::triple([P::lane(t549, 2), P::lane(t551, 2), P::lane(t553, 2)]);
+        // mass matrix M_p of the platform
+        let t784 = platform_rotation[0][1] * P::lane(t614, 1);
+        let t785 = platform_rotation[1][1] * P::lane(t614, 1);
+        // first moment of payload and platform-side leg ends
+        let t786 = P::triple([P::lane(t558, 2), P::lane(t559, 2), P::lane(t560, 2)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t787 = t439 - t694;
+        let t788 = P::triple([P::lane(t627, 0), P::lane(t628, 0), P::lane(t629, 0)]);
+        let t789 = P::triple([P::lane(t627, 1), P::lane(t628, 1), P::lane(t629, 1)]);
+        let t790 = P::triple([P::lane(t563, 2), P::lane(t564, 2), P::lane(t565, 2)]);
+        let t791 = t571 - t695;
+        let t792 = t696 + t697 - t698;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t793 = mul_add(t443, t603, mul_add(t473, t508, t332 * t469));
+        let t794 = mul_add(t444, t603, mul_add(t474, t508, t333 * t469));
+        let t795 = mul_add(t445, t603, mul_add(t475, t508, t334 * t469));
+        let t796 = P::triple([P::lane(t577, 2), P::lane(t578, 2), P::lane(t579, 2)]);
+        let t797 = P::triple([P::lane(t635, 0), P::lane(t636, 0), P::lane(t637, 0)]);
+        let t798 = P::triple([P::lane(t635, 1), P::lane(t636, 1), P::lane(t637, 1)]);
+        let t799 = t714 + t715 + t783;
+        // Coriolis matrix C_b, natural factorisation
+        let t800 = P::mul_add(base_rotation[2][0], t734, base_rotation[2][1] * t677);
+        let t801 = P::mul_add(base_rotation[1][0], t734, base_rotation[1][1] * t677);
+        let t802 = P::mul_add(base_rotation[0][0], t734, base_rotation[0][1] * t677);
+        let t803 = P::lane(t584, 2) + (P::lane(t584, 1) + P::lane(t584, 0));
+        let t804 = base_velocity[3] * P::lane(t504, 0);
+        let t805 = base_velocity[3] * P::lane(t504, 1);
+        // part of the legs' mass matrix on the side of the axes
+        let t806 = mul_add(t334, t182 * t334, t307 * (t159 * t307));
+        let t807 = t722 + t723 + t790;
+        let t808 = P::triple([P::lane(t585, 2), P::lane(t586, 2), P::lane(t587, 2)]);
+        let t809 = P::lane(t639, 1) + P::lane(t639, 0);
+        let t810 = P::triple([P::lane(t588, 2), P::lane(t590, 2), P::lane(t591, 2)]);
+        let t811 = P::triple([P::lane(t592, 2), P::lane(t593, 2), P::lane(t594, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t812 = mul_add(t235, t615, t211 * t546);
+        let t813 = mul_add(t260, t615, t236 * t546);
+        let t814 = mul_add(t261, t615, t237 * t546);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t815 = mul_add(P::splat(base_rotation[0][2]), t760, t731);
+        let t816 = mul_add(P::splat(base_rotation[1][2]), t760, t732);
+        let t817 = mul_add(P::splat(base_rotation[2][2]), t760, t733);
+        // Coriolis matrix C_b, natural factorisation
+        let t818 = P::mul_add(base_rotation[0][0], t761, base_rotation[0][1] * t687);
+        let t819 = P::mul_add(base_rotation[1][0], t762, base_rotation[1][1] * t688);
+        let t820 = P::mul_add(base_rotation[2][0], t763, base_rotation[2][1] * t689);
+        let t821 = P::lane(t607, 2) + (P::lane(t607, 1) + P::lane(t607, 0));
+        let t822 = P::mul_add(base_rotation[2][0], t736, base_rotation[2][1] * t683);
+        let t823 = P::lane(t608, 2) + (P::lane(t608, 1) + P::lane(t608, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t824 = t740 + t741 + t808;
+        let t825 = t742 + t743 + t810;
+        let t826 = t744 + t745 + t811;
+        // mass matrix M_b that couples the base acceleration
+        let t827 = mul_add(t20, t120, t135);
+        // Coriolis matrix C_b, natural factorisation
+        let t828 = P::lane(t617, 2) + (P::lane(t617, 1) + P::lane(t617, 0));
+        let t829 = P::lane(t618, 2) + (P::lane(t618, 1) + P::lane(t618, 0));
+        let t830 = P::lane(t619, 2) + (P::lane(t619, 1) + P::lane(t619, 0));
+        let t831 = t765 + P::mul_sub(base_rotation[0][2], t679, t680);
+        let t832 = t766 + P::mul_sub(base_rotation[1][2], t682, t684);
+        // mass matrix M_p of the platform
+        let t833 = platform_rotation[0][1] * P::lane(t721, 0);
+        let t834 = P::mul_add(platform_rotation[0][0], P::lane(t721, 0), t784);
+        let t835 = platform_rotation[1][1] * P::lane(t721, 0);
+        let t836 = P::mul_add(platform_rotation[1][0], P::lane(t721, 0), t785);
+        // part of the legs' mass matrix on the side of the axes
+        let t837 = P::triple([P::lane(t627, 2), P::lane(t628, 2), P::lane(t629, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t838 = mul_add(t235, t659, t211 * t616);
+        let t839 = mul_add(t260, t659, t236 * t616);
+        let t840 = mul_add(t261, t659, t237 * t616);
+        let t841 = mul_add(t332, t768, t305 * t703);
+        let t842 = mul_add(t333, t768, t306 * t703);
+        let t843 = mul_add(t334, t659, t307 * t616);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t844 = mul_add(t305, t660, t775);
+        let t845 = mul_add(t306, t660, t776);
+        let t846 = mul_add(t307, t660, t777);
+        let t847 = mul_add(t305, t661, t778);
+        let t848 = mul_add(t306, t661, t779);
+        let t849 = mul_add(t307, t661, t780);
+        let t850 = P::triple([P::lane(t635, 2), P::lane(t636, 2), P::lane(t637, 2)]);
+        let t851 = neg_mul_add(P::splat(base_rotation[0][0]), t799, t710 + t711 + t781);
+        let t852 = neg_mul_add(P::splat(base_rotation[2][0]), t799, t712 + t713 + t782);
+        // Coriolis matrix of the legs
+        let t853 = mul_add(t332, t772, t305 * t704);
+        let t854 = mul_add(t332, t773, t305 * t705);
+        let t855 = mul_add(t332, t774, t305 * t706);
+        let t856 = mul_add(t333, t772, t306 * t704);
+        let t857 = mul_add(t333, t773, t306 * t705);
+        let t858 = mul_add(t333, t774, t306 * t706);
+        // Coriolis matrix C_b, natural factorisation
+        let t859 = P::mul_add(base_rotation[0][0], t681, base_rotation[0][1] * t624);
+        let t860 = P::mul_add(base_rotation[0][0], t736, base_rotation[0][1] * t683);
+        let t861 = P::mul_add(base_rotation[1][0], t678, base_rotation[1][1] * t621);
+        let t862 = P::mul_add(base_rotation[1][0], t736, base_rotation[1][1] * t683);
+        let t863 = P::mul_add(base_rotation[0][0], t803, base_rotation[0][1] * t739);
+        let t864 = P::mul_sub(base_velocity[4], P::lane(t466, 0), t804);
+        let t865 = P::mul_add(base_rotation[1][0], t803, base_rotation[1][1] * t739);
+        let t866 = P::mul_sub(base_velocity[4], P::lane(t466, 1), t805);
+        let t867 = P::mul_add(base_rotation[2][0], t803, base_rotation[2][1] * t739);
+        // mass matrix M_p of the platform
+        let t868 = platform_rotation[2][1] * P::lane(t614, 1);
+        // first moment of payload and platform-side leg ends
+        let t869 = mul_add(t523, P::splat(parameters.payload_mass), t719 + t720 + t786);
+        // part of the legs' mass matrix on the side of the axes
+        let t870 = t788 + t789 + t837;
+        let t871 = P::triple([P::lane(t691, 0), P::lane(t692, 0), P::lane(t693, 0)]);
+        let t872 = P::triple([P::lane(t691, 1), P::lane(t692, 1), P::lane(t693, 1)]);
+        let t873 = P::splat(base_rotation[1][1]) * t807;
+        let t874 = P::splat(base_rotation[2][1]) * t807;
+        let t875 = P::triple([P::lane(t725, 1), P::lane(t638, 2), P::lane(t639, 2)]);
+        let t876 = P::triple([c(0.0), P::lane(t638, 1) + P::lane(t638, 0), t809]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t877 = mul_add(t305, t662, t793);
+        let t878 = mul_add(t306, t662, t794);
+        let t879 = mul_add(t307, t662, t795);
+        let t880 = P::triple([P::lane(t707, 0), P::lane(t708, 0), P::lane(t709, 0)]);
+        let t881 = P::triple([P::lane(t707, 1), P::lane(t708, 1), P::lane(t709, 1)]);
+        let t882 = t797 + t798 + t850;
+        let t883 = neg_mul_add(P::splat(base_rotation[1][0]), t799, t728 + t729 + t796);
+        // Coriolis matrix of the legs
+        let t884 = mul_add(t334, t772, t307 * t704);
+        let t885 = mul_add(t334, t773, t307 * t705);
+        let t886 = mul_add(t334, t774, t307 * t706);
+        // Coriolis matrix C_b, natural factorisation
+        let t887 = t800 + P::mul_add(base_rotation[2][2], t735, t716);
+        let t888 = t801 + P::mul_add(base_rotation[1][2], t735, t717);
+        let t889 = t802 + P::mul_add(base_rotation[0][2], t735, t718);
+        let t890 = mul_add(t427, P::splat(t821), t392 * P::splat(t764));
+        // part of the legs' mass matrix on the side of the axes
+        let t891 = P::triple([P::lane(t724, 2), P::lane(t724, 0), P::lane(t724, 1)]);
+        // velocity of the platform origin relative to the base
+        let t892 = P::triple([t70, t76, t71]);
+        // Coriolis matrix C_b, natural factorisation
+        let t893 = base_velocity[4] * P::lane(t501, 1);
+        let t894 = base_velocity[4] * P::lane(t501, 2);
+        let t895 = mul_add(t427, P::splat(t823), t392 * P::splat(t767));
+        // part of the legs' mass matrix on the side of the axes
+        let t896 = P::triple([P::lane(t726, 2), P::lane(t726, 0), P::lane(t726, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t897 = base_velocity[5] * P::lane(t466, 0);
+        let t898 = base_velocity[5] * P::lane(t466, 2);
+        let t899 = P::lane(t650, 2) + (P::lane(t650, 1) + P::lane(t650, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t900 = P::splat(base_rotation[0][1]) * t807;
+        let t901 = t725 - t824;
+        let t902 = t875 + t876;
+        // mass matrix M_b that couples the base acceleration
+        let t903 = mul_add(t235, t547, t211 * t502);
+        let t904 = mul_add(t260, t547, t236 * t502);
+        let t905 = mul_add(t261, t547, t237 * t502);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t906 = mul_add(P::splat(base_velocity[4]), t698, t815);
+        let t907 = mul_add(P::splat(base_velocity[5]), t694, t816);
+        let t908 = mul_add(P::splat(base_velocity[3]), t695, t817);
+        // Coriolis matrix C_b, natural factorisation
+        let t909 = P::mul_add(base_rotation[0][2], t828, t818);
+        let t910 = P::mul_add(base_rotation[1][2], t829, t819);
+        let t911 = P::mul_add(base_rotation[2][2], t830, t820);
+        let t912 = P::lane(t675, 2) + (P::lane(t675, 1) + P::lane(t675, 0));
+        let t913 = t831 + t832;
+        let t914 = P::lane(t676, 2) + (P::lane(t676, 1) + P::lane(t676, 0));
+        // mass matrix M_p of the platform
+        let t915 = P::mul_add(platform_rotation[0][0], P::lane(t614, 0), t833);
+        let t916 = P::mul_add(platform_rotation[1][0], P::lane(t614, 0), t835);
+        // mass matrix M_b that couples the base acceleration
+        let t917 = mul_add(t235, t686, t211 * t634);
+        let t918 = mul_add(t260, t686, t236 * t634);
+        let t919 = mul_add(t261, t686, t237 * t634);
+        let t920 = mul_add(t22, t120, t154);
+        let t921 = mul_add(t334, t686, t307 * t634);
+        let t922 = P::lane(t750, 1) + P::lane(t750, 0);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t923 = P::triple([P::lane(t751, 0), P::lane(t752, 0), P::lane(t753, 0)]);
+        let t924 = P::triple([P::lane(t751, 1), P::lane(t752, 1), P::lane(t753, 1)]);
+        let t925 = P::triple([P::lane(t754, 0), P::lane(t755, 0), P::lane(t756, 0)]);
+        let t926 = P::triple([P::lane(t754, 1), P::lane(t755, 1), P::lane(t756, 1)]);
+        let t927 = P::triple([P::lane(t757, 0), P::lane(t758, 0), P::lane(t759, 0)]);
+        let t928 = P::triple([P::lane(t757, 1), P::lane(t758, 1), P::lane(t759, 1)]);
+        // mass matrix M_p of the platform
+        let t929 = P::mul_add(platform_rotation[0][2], P::lane(t721, 1), t834);
+        let t930 = platform_rotation[0][1] * P::lane(t721, 1);
+        let t931 = P::mul_add(platform_rotation[1][2], P::lane(t721, 1), t836);
+        let t932 = platform_rotation[1][1] * P::lane(t721, 1);
+        let t933 = platform_rotation[2][1] * P::lane(t721, 0);
+        let t934 = P::mul_add(platform_rotation[2][0], P::lane(t721, 0), t868);
+        // part of the legs' mass matrix on the side of the axes
+        let t935 = P::triple([P::lane(t691, 2), P::lane(t692, 2), P::lane(t693, 2)]);
+        let t936 = mul_add(P::splat(base_rotation[1][0]), t870, t873);
+        let t937 = mul_add(P::splat(base_rotation[2][0]), t870, t874);
+        let t938 = P::triple([P::lane(t694, 0), P::lane(t695, 0), P::lane(t698, 0)]);
+        let t939 = P::triple([P::lane(t824, 0), P::lane(t825, 0), P::lane(t826, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t940 = mul_add(t332, t576, t305 * t505);
+        let t941 = mul_add(t333, t576, t306 * t505);
+        let t942 = mul_add(t334, t576, t307 * t505);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t943 = P::triple([P::lane(t707, 2), P::lane(t708, 2), P::lane(t709, 2)]);
+        let t944 = mul_sub(P::splat(base_rotation[0][1]), t882, t851);
+        let t945 = mul_sub(P::splat(base_rotation[2][1]), t882, t852);
+        // Coriolis matrix C_b, natural factorisation
+        let t946 = P::mul_add(base_rotation[1][0], t761, base_rotation[1][1] * t687);
+        let t947 = P::mul_add(base_rotation[2][0], t761, base_rotation[2][1] * t687);
+        let t948 = P::mul_add(base_rotation[0][0], t762, base_rotation[0][1] * t688);
+        let t949 = P::mul_add(base_rotation[2][0], t762, base_rotation[2][1] * t688);
+        let t950 = P::mul_add(base_rotation[0][0], t763, base_rotation[0][1] * t689);
+        let t951 = P::mul_add(base_rotation[1][0], t763, base_rotation[1][1] * t689);
+        // part of the legs' mass matrix on the side of the axes
+        let t952 = P::triple([P::lane(t724, 1), P::lane(t724, 2), P::lane(t724, 0)]);
+        // velocity of the platform origin relative to the base
+        let t953 = P::triple([t76, t71, t70]);
+        // Coriolis matrix C_b, natural factorisation
+        let t954 = P::mul_add(base_rotation[0][2], t737, t860);
+        let t955 = P::mul_sub(base_velocity[5], P::lane(t504, 1), t893);
+        let t956 = P::mul_sub(base_velocity[5], P::lane(t504, 2), t894);
+        // part of the legs' mass matrix on the side of the axes
+        let t957 = P::triple([P::lane(t726, 1), P::lane(t726, 2), P::lane(t726, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t958 = P::mul_add(base_rotation[1][2], t737, t862);
+        let t959 = P::mul_sub(base_velocity[3], P::lane(t501, 0), t897);
+        let t960 = P::mul_sub(base_velocity[3], P::lane(t501, 2), t898);
+        let t961 = P::mul_sub(t76, P::lane(t727, 1), t70 * P::lane(t727, 2));
+        let t962 = P::mul_add(base_rotation[2][0], t678, base_rotation[2][1] * t621);
+        let t963 = P::mul_sub(t71, P::lane(t727, 2), t76 * P::lane(t727, 0));
+        let t964 = P::mul_add(base_rotation[2][0], t681, base_rotation[2][1] * t624);
+        let t965 = P::mul_sub(t70, P::lane(t727, 0), t71 * P::lane(t727, 1));
+        // part of the legs' mass matrix on the side of the axes
+        let t966 = mul_add(P::splat(base_rotation[0][0]), t870, t900);
+        let t967 = t871 + t872 + t935;
+        let t968 = t902 - t825;
+        // mass matrix of the legs
+        let t969 = t787 - t938;
+        let t970 = t901 - t939;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t971 = t880 + t881 + t943;
+        let t972 = mul_sub(P::splat(base_rotation[1][1]), t882, t883);
+        // Coriolis matrix of the legs
+        let t973 = mul_add(t235, t772, t211 * t704);
+        let t974 = mul_add(t235, t773, t211 * t705);
+        let t975 = mul_add(t235, t774, t211 * t706);
+        let t976 = mul_add(t261, t772, t237 * t704);
+        let t977 = mul_add(t261, t773, t237 * t705);
+        let t978 = mul_add(t261, t774, t237 * t706);
+        // Coriolis matrix C_b, natural factorisation
+        let t979 = mul_sub(t952, t953, t891 * t892);
+        let t980 = t913 + (t822 + P::mul_sub(base_rotation[2][2], t737, t738));
+        let t981 = mul_sub(t953, t957, t892 * t896);
+        // mass matrix M_b that couples the base acceleration
+        let t982 = P::lane(t746, 2) + (P::lane(t746, 1) + P::lane(t746, 0));
+        let t983 = P::lane(t747, 2) + (P::lane(t747, 1) + P::lane(t747, 0));
+        let t984 = P::lane(t748, 2) + (P::lane(t748, 1) + P::lane(t748, 0));
+        let t985 = P::lane(t749, 2) + (P::lane(t749, 1) + P::lane(t749, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t986 = P::triple([P::lane(t751, 2), P::lane(t752, 2), P::lane(t753, 2)]);
+        let t987 = P::triple([P::lane(t754, 2), P::lane(t755, 2), P::lane(t756, 2)]);
+        let t988 = P::triple([P::lane(t757, 2), P::lane(t758, 2), P::lane(t759, 2)]);
+        let t989 = neg_mul_add(P::splat(base_velocity[5]), t695, t906);
+        let t990 = neg_mul_add(P::splat(base_velocity[3]), t698, t907);
+        let t991 = neg_mul_add(P::splat(base_velocity[4]), t694, t908);
+        // Coriolis matrix of the legs
+        let t992 = mul_add(t260, t772, t236 * t704);
+        let t993 = mul_add(t260, t773, t236 * t705);
+        let t994 = mul_add(t260, t774, t236 * t706);
+        // Coriolis matrix C_b, natural factorisation
+        let t995 = P::mul_add(t76, P::lane(t787, 1), t909);
+        let t996 = P::mul_add(t71, P::lane(t791, 2), t910);
+        let t997 = P::mul_add(t70, P::lane(t792, 0), t911);
+        (
+            t7, t8, t13, t70, t71, t76, t107, t111, t115, t120, t208, t209, t210, t211, t232, t233,
+            t234, t235, t236, t237, t260, t261, t305, t306, t307, t332, t333, t334, t435, t441,
+            t442, t466, t472, t500, t501, t502, t504, t546, t547, t570, t573, t575, t614, t615,
+            t656, t657, t658, t679, t682, t695, t698, t703, t721, t724, t725, t726, t727, t750,
+            t768, t769, t770, t771, t787, t791, t792, t806, t812, t813, t814, t825, t826, t827,
+            t828, t829, t830, t831, t832, t838, t839, t840, t841, t842, t843, t844, t845, t846,
+            t847, t848, t849, t853, t854, t855, t856, t857, t858, t859, t861, t863, t864, t865,
+            t866, t867, t869, t877, t878, t879, t884, t885, t886, t887, t888, t889, t890, t895,
+            t899, t901, t902, t903, t904, t905, t912, t913, t914, t915, t916, t917, t918, t919,
+            t920, t921, t922, t923, t924, t925, t926, t927, t928, t929, t930, t931, t932, t933,
+            t934, t936, t937, t940, t941, t942, t944, t945, t946, t947, t948, t949, t950, t951,
+            t954, t955, t956, t958, t959, t960, t961, t962, t963, t964, t965, t966, t967, t968,
+            t969, t970, t971, t972, t973, t974, t975, t976, t977, t978, t979, t980, t981, t982,
+            t983, t984, t985, t986, t987, t988, t989, t990, t991, t992, t993, t994, t995, t996,
+            t997,
+        )
+    };
+    {
+        // mass matrix M_p of the platform
+        let t998 = P::mul_add(platform_rotation[0][2], P::lane(t721, 2), t915);
+        let t999 = P::mul_add(platform_rotation[0][0], P::lane(t721, 2), t930);
+        let t1000 = P::mul_add(platform_rotation[1][2], P::lane(t721, 2), t916);
+        let t1001 = P::mul_add(platform_rotation[1][0], P::lane(t721, 2), t932);
+        let t1002 = P::mul_add(platform_rotation[2][0], P::lane(t614, 0), t933);
+        // mass of payload and platform-side leg ends
+        let t1003 = t107 + t115;
+        // mass matrix M_b that couples the base acceleration
+        let t1004 = mul_add(t235, t768, t211 * t703);
+        let t1005 = mul_add(t260, t768, t236 * t703);
+        let t1006 = mul_add(t261, t768, t237 * t703);
+        let t1007 = mul_add(t332, t615, t305 * t546);
+        let t1008 = mul_add(t332, t547, t305 * t502);
+        let t1009 = mul_add(t333, t615, t306 * t546);
+        let t1010 = mul_add(t333, t547, t306 * t502);
+        let t1011 = mul_add(t334, t615, t307 * t546);
+        let t1012 = mul_add(t334, t547, t307 * t502);
+        let t1013 = mul_add(t334, t768, t307 * t703);
+        let t1014 = P::lane(t770, 2) + (P::lane(t770, 1) + P::lane(t770, 0));
+        let t1015 = P::lane(t771, 2) + (P::lane(t771, 1) + P::lane(t771, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1016 = t923 + t924 + t986;
+        let t1017 = t925 + t926 + t987;
+        let t1018 = t927 + t928 + t988;
+        // Coriolis matrix C_b, natural factorisation
+        let t1019 = P::mul_sub(t71, P::lane(t787, 2), t76 * P::lane(t787, 0));
+        let t1020 = P::mul_sub(t70, P::lane(t787, 0), t71 * P::lane(t787, 1));
+        let t1021 = P::mul_sub(t76, P::lane(t791, 1), t70 * P::lane(t791, 2));
+        let t1022 = P::mul_sub(t70, P::lane(t791, 0), t71 * P::lane(t791, 1));
+        let t1023 = P::mul_sub(t76, P::lane(t792, 1), t70 * P::lane(t792, 2));
+        let t1024 = P::mul_sub(t71, P::lane(t792, 2), t76 * P::lane(t792, 0));
+        // mass matrix M_p of the platform
+        let t1025 = P::mul_add(platform_rotation[2][2], P::lane(t721, 1), t934);
+        let t1026 = platform_rotation[2][1] * P::lane(t721, 1);
+        // mass matrix M_b that couples the base acceleration
+        let t1027 = P::lane(t769, 2) + (P::lane(t769, 1) + P::lane(t769, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1028 = mul_add(P::splat(base_rotation[1][2]), t967, t936);
+        let t1029 = mul_add(P::splat(base_rotation[2][2]), t967, t937);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1030 = P::triple([P::lane(t844, 0), P::lane(t845, 0), P::lane(t846, 0)]);
+        let t1031 = P::triple([P::lane(t844, 1), P::lane(t845, 1), P::lane(t846, 1)]);
+        let t1032 = P::triple([P::lane(t847, 0), P::lane(t848, 0), P::lane(t849, 0)]);
+        let t1033 = P::triple([P::lane(t847, 1), P::lane(t848, 1), P::lane(t849, 1)]);
+        let t1034 = mul_add(P::splat(base_rotation[0][2]), t971, t944);
+        let t1035 = mul_add(P::splat(base_rotation[2][2]), t971, t945);
+        // Coriolis matrix of the legs
+        let t1036 = P::triple([P::lane(t853, 0), P::lane(t854, 0), P::lane(t855, 0)]);
+        let t1037 = P::triple([P::lane(t853, 1), P::lane(t854, 1), P::lane(t855, 1)]);
+        let t1038 = P::triple([P::lane(t856, 0), P::lane(t857, 0), P::lane(t858, 0)]);
+        let t1039 = P::triple([P::lane(t856, 1), P::lane(t857, 1), P::lane(t858, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1040 = P::triple([t831, P::mul_add(base_rotation[0][2], t682, t859), t954]);
+        let t1041 = P::triple([P::mul_add(base_rotation[1][2], t679, t861), t832, t958]);
+        let t1042 = t962 + P::mul_sub(base_rotation[2][2], t679, t864);
+        let t1043 = t964 + P::mul_sub(base_rotation[2][2], t682, t866);
+        // part of the legs' mass matrix on the side of the axes
+        let t1044 = mul_add(P::splat(base_rotation[0][2]), t967, t966);
+        let t1045 = P::triple([P::lane(t725, 2), P::lane(t902, 2), P::lane(t806, 2)]);
+        let t1046 = P::triple([c(0.0), c(0.0), P::lane(t806, 1) + P::lane(t806, 0)]);
+        // their moment by platform joint and Hooke joint
+        let t1047 = -t442;
+        // mass matrix M_b that couples the base acceleration
+        let t1048 = t111 + t120;
+        let t1049 = P::lane(t812, 2) + (P::lane(t812, 1) + P::lane(t812, 0));
+        let t1050 = P::lane(t813, 2) + (P::lane(t813, 1) + P::lane(t813, 0));
+        let t1051 = P::lane(t814, 2) + (P::lane(t814, 1) + P::lane(t814, 0));
+        let t1052 = base_rotation[1][1] * (P::lane(t750, 2) + t922);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1053 = P::triple([P::lane(t877, 0), P::lane(t878, 0), P::lane(t879, 0)]);
+        let t1054 = P::triple([P::lane(t877, 1), P::lane(t878, 1), P::lane(t879, 1)]);
+        let t1055 = mul_add(P::splat(base_rotation[1][2]), t971, t972);
+        // Coriolis matrix of the legs
+        let t1056 = P::triple([P::lane(t884, 0), P::lane(t885, 0), P::lane(t886, 0)]);
+        let t1057 = P::triple([P::lane(t884, 1), P::lane(t885, 1), P::lane(t886, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1058 = mul_add(t472, P::splat(t912), t890) + t979;
+        let t1059 = mul_add(t472, P::splat(t914), t895) + t981;
+        // mass matrix M_p of the platform
+        let t1060 = platform_rotation[2][1] * P::lane(t869, 1);
+        let t1061 = platform_rotation[1][1] * P::lane(t869, 1);
+        let t1062 = platform_rotation[0][1] * P::lane(t869, 1);
+        // mass matrix M_b that couples the base acceleration
+        let t1063 = base_rotation[1][0] * t1014;
+        let t1064 = base_rotation[2][0] * t1014;
+        let t1065 = base_rotation[2][0] * t1015;
+        let t1066 = P::triple([P::lane(t750, 2), t1047, P::lane(t750, 2)]);
+        // mass matrix M_p of the platform
+        let t1067 = P::mul_add(platform_rotation[0][0], t998, platform_rotation[0][1] * t929);
+        let t1068 = P::mul_add(platform_rotation[0][2], P::lane(t614, 2), t999);
+        let t1069 = P::mul_add(platform_rotation[1][0], t1000, platform_rotation[1][1] * t931);
+        let t1070 = P::mul_add(platform_rotation[1][2], P::lane(t614, 2), t1001);
+        let t1071 = P::mul_add(platform_rotation[2][2], P::lane(t721, 2), t1002);
+        let t1072 = P::mul_add(platform_rotation[2][0], P::lane(t721, 2), t1026);
+        // mass matrix M_b that couples the base acceleration
+        let t1073 = P::lane(t827, 2) + (P::lane(t827, 1) + P::lane(t827, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1074 = -P::lane(t698, 1);
+        let t1075 = -P::lane(t695, 1);
+        let t1076 = -P::lane(t826, 1);
+        let t1077 = -P::lane(t825, 1);
+        // mass matrix M_b that couples the base acceleration
+        let t1078 = P::lane(t841, 2) + (P::lane(t841, 1) + P::lane(t841, 0));
+        let t1079 = P::lane(t842, 2) + (P::lane(t842, 1) + P::lane(t842, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1080 = P::triple([P::lane(t844, 2), P::lane(t845, 2), P::lane(t846, 2)]);
+        let t1081 = P::triple([P::lane(t847, 2), P::lane(t848, 2), P::lane(t849, 2)]);
+        // Coriolis matrix of the legs
+        let t1082 = P::triple([P::lane(t853, 2), P::lane(t854, 2), P::lane(t855, 2)]);
+        let t1083 = P::triple([P::lane(t856, 2), P::lane(t857, 2), P::lane(t858, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1084 = t1019 + (t946 + P::mul_sub(base_rotation[1][2], t828, t887));
+        let t1085 = t1020 + (t947 + P::mul_add(base_rotation[2][2], t828, t888));
+        let t1086 = t1021 + (t948 + P::mul_add(base_rotation[0][2], t829, t887));
+        let t1087 = t1022 + (t949 + P::mul_sub(base_rotation[2][2], t829, t889));
+        let t1088 = t1023 + (t950 + P::mul_sub(base_rotation[0][2], t830, t888));
+        let t1089 = t1024 + (t951 + P::mul_add(base_rotation[1][2], t830, t889));
+        let t1090 = P::mul_add(base_rotation[0][2], t899, t863) + t961 + t1042;
+        let t1091 = P::mul_add(base_rotation[1][2], t899, t865) + t963 + t1043;
+        let t1092 = P::mul_add(base_rotation[2][2], t899, t867) + t965 - t913;
+        // mass matrix M_b that couples the base acceleration
+        let t1093 = P::lane(t838, 2) + (P::lane(t838, 1) + P::lane(t838, 0));
+        let t1094 = P::lane(t839, 2) + (P::lane(t839, 1) + P::lane(t839, 0));
+        let t1095 = P::lane(t840, 2) + (P::lane(t840, 1) + P::lane(t840, 0));
+        let t1096 = P::lane(t843, 2) + (P::lane(t843, 1) + P::lane(t843, 0));
+        // mass matrix of the legs
+        let t1097 = P::triple([P::lane(t969, 1), t1075, P::lane(t791, 2)]);
+        let t1098 = P::triple([P::lane(t970, 1), t1077, P::lane(t968, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1099 = P::mul_add(base_rotation[0][0], t1049, base_rotation[0][1] * t982);
+        let t1100 = P::mul_add(base_rotation[1][0], t1050, base_rotation[1][1] * t983);
+        let t1101 = P::mul_add(base_rotation[2][0], t1051, base_rotation[2][1] * t984);
+        let t1102 = P::neg_mul_add(t13, P::lane(t724, 1), P::lane(t901, 0));
+        let t1103 = P::mul_add(base_rotation[0][0], t1014, base_rotation[0][1] * t985);
+        let t1104 = P::neg_mul_add(t8, P::lane(t724, 2), P::lane(t901, 1));
+        let t1105 = P::neg_mul_add(t7, P::lane(t724, 0), P::lane(t901, 2));
+        // their moment by platform joint and Hooke joint
+        let t1106 = -P::lane(t441, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t1107 = P::mul_add(base_rotation[1][0], t1015, t1052);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1108 = t1030 + t1031 + t1080;
+        let t1109 = t1032 + t1033 + t1081;
+        let t1110 = P::triple([P::lane(t877, 2), P::lane(t878, 2), P::lane(t879, 2)]);
+        let t1111 = mul_add(P::splat(base_velocity[4]), t1029, t1034);
+        let t1112 = mul_add(P::splat(base_velocity[3]), t1028, t1035);
+        // Coriolis matrix of the legs
+        let t1113 = P::triple([P::lane(t884, 2), P::lane(t885, 2), P::lane(t886, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1114 = t1058 + (t1040 - P::triple([t980, t955, t956]));
+        let t1115 = t1059 + (t1041 - P::triple([t959, t980, t960]));
+        // mass matrix M_p of the platform
+        let t1116 = P::mul_add(platform_rotation[2][0], P::lane(t869, 0), t1060);
+        let t1117 = P::mul_add(platform_rotation[1][0], P::lane(t869, 0), t1061);
+        let t1118 = P::mul_add(platform_rotation[0][0], P::lane(t869, 0), t1062);
+        // part of the legs' mass matrix on the side of the axes
+        let t1119 = t1045 + t1046 - t826;
+        // mass matrix of the legs
+        let t1120 = t1097 + P::triple([c(0.0), P::lane(t791, 1), t1074]);
+        let t1121 = t1098 + P::triple([c(0.0), P::lane(t968, 1), t1076]);
+        // mass matrix M_b that couples the base acceleration
+        let t1122 = P::lane(t903, 2) + (P::lane(t903, 1) + P::lane(t903, 0));
+        let t1123 = P::lane(t904, 2) + (P::lane(t904, 1) + P::lane(t904, 0));
+        let t1124 = P::lane(t905, 2) + (P::lane(t905, 1) + P::lane(t905, 0));
+        // their moment by platform joint and Hooke joint
+        let t1125 = P::triple([t1106, t1063, t1064]);
+        // constant and copied elements
+        let t1126 = P::triple([platform_rotation[2][2], base_rotation[1][1], base_rotation[2][1]]);
+        // mass matrix M_b that couples the base acceleration
+        let t1127 = P::lane(t504, 1) + P::lane(t466, 0);
+        let t1128 = P::mul_sub(t8, P::lane(t726, 2), t13 * P::lane(t726, 0));
+        let t1129 = P::mul_sub(t13, P::lane(t726, 1), t7 * P::lane(t726, 2));
+        let t1130 = P::mul_sub(t7, P::lane(t726, 0), t8 * P::lane(t726, 1));
+        let t1131 = P::triple([base_rotation[0][0] * t1015, t1106, t1065]);
+        // constant and copied elements
+        let t1132 = P::triple([base_rotation[0][1], platform_rotation[2][2], base_rotation[2][1]]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1133 = t1053 + t1054 + t1110;
+        let t1134 = mul_add(P::splat(base_velocity[5]), t1044, t1055);
+        // Coriolis matrix of the legs
+        let t1135 = P::triple([P::lane(t973, 0), P::lane(t974, 0), P::lane(t975, 0)]);
+        let t1136 = P::triple([P::lane(t973, 1), P::lane(t974, 1), P::lane(t975, 1)]);
+        let t1137 = P::triple([P::lane(t976, 0), P::lane(t977, 0), P::lane(t978, 0)]);
+        let t1138 = P::triple([P::lane(t976, 1), P::lane(t977, 1), P::lane(t978, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1139 = P::mul_add(platform_rotation[2][0], t1073, platform_rotation[2][1] * t1027);
+        let t1140 = P::mul_add(platform_rotation[1][0], t1073, platform_rotation[1][1] * t1027);
+        let t1141 = P::mul_add(platform_rotation[0][0], t1073, platform_rotation[0][1] * t1027);
+        let t1142 = base_rotation[1][0] * t1049;
+        let t1143 = base_rotation[2][0] * t1049;
+        let t1144 = base_rotation[1][1] * t982;
+        let t1145 = base_rotation[2][1] * t982;
+        let t1146 = base_rotation[2][0] * t1050;
+        let t1147 = base_rotation[2][1] * t983;
+        let t1148 = base_rotation[1][0] * t1051;
+        let t1149 = base_rotation[1][1] * t984;
+        // their moment by platform joint and Hooke joint
+        let t1150 = mul_add(t1126, P::triple([t1047, t985, t985]), t1125);
+        // mass matrix M_b that couples the base acceleration
+        let t1151 = base_rotation[2][2] * t1078;
+        let t1152 = mul_add(t1066 + P::triple([t922, c(0.0), t922]), t1132, t1131);
+        let t1153 = base_rotation[2][2] * t1079;
+        // Coriolis matrix of the legs
+        let t1154 = P::triple([P::lane(t992, 0), P::lane(t993, 0), P::lane(t994, 0)]);
+        let t1155 = P::triple([P::lane(t992, 1), P::lane(t993, 1), P::lane(t994, 1)]);
+        // platform origin seen from the base
+        let t1156 = P::triple([t13, t8, t7]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1157 = P::triple([P::lane(t989, 1), P::lane(t989, 2), P::lane(t989, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1158 = P::triple([P::neg_mul_add(t70, P::lane(t787, 2), t995), t1084, t1085]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1159 = P::triple([P::lane(t990, 1), P::lane(t990, 2), P::lane(t990, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1160 = P::triple([t1086, P::neg_mul_add(t76, P::lane(t791, 0), t996), t1087]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1161 = P::triple([P::lane(t991, 1), P::lane(t991, 2), P::lane(t991, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1162 = P::triple([t1088, t1089, P::neg_mul_add(t71, P::lane(t792, 1), t997)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1163 = P::triple([P::lane(t1016, 1), P::lane(t1016, 2), P::lane(t1016, 0)]);
+        let t1164 = P::triple([P::lane(t1017, 1), P::lane(t1017, 2), P::lane(t1017, 0)]);
+        let t1165 = P::triple([P::lane(t1018, 1), P::lane(t1018, 2), P::lane(t1018, 0)]);
+        // mass matrix M_p of the platform
+        let t1166 = P::mul_add(platform_rotation[0][2], t1068, t1067);
+        let t1167 = P::mul_add(platform_rotation[2][0], t998, platform_rotation[2][1] * t929);
+        let t1168 = P::mul_add(platform_rotation[1][2], t1070, t1069);
+        let t1169 = P::mul_add(platform_rotation[2][0], t1071, platform_rotation[2][1] * t1025);
+        let t1170 = P::mul_add(platform_rotation[2][2], P::lane(t614, 2), t1072);
+        // mass matrix M_b that couples the base acceleration
+        let t1171 = P::lane(t917, 2) + (P::lane(t917, 1) + P::lane(t917, 0));
+        let t1172 = P::lane(t918, 2) + (P::lane(t918, 1) + P::lane(t918, 0));
+        let t1173 = P::lane(t919, 2) + (P::lane(t919, 1) + P::lane(t919, 0));
+        let t1174 = P::lane(t920, 2) + (P::lane(t920, 1) + P::lane(t920, 0));
+        let t1175 = P::lane(t921, 2) + (P::lane(t921, 1) + P::lane(t921, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1176 = t570 - t1044;
+        let t1177 = t575 - t1029;
+        // Coriolis matrix of the legs
+        let t1178 = t1108 + (t1036 + t1037 + t1082);
+        let t1179 = t1109 + (t1038 + t1039 + t1083);
+        // Coriolis matrix C_b, natural factorisation
+        let t1180 = neg_mul_add(t1156, t1165, P::triple([t1090, t1091, t1092]));
+        // mass matrix M_p of the platform
+        let t1181 = P::mul_add(platform_rotation[1][0], t998, platform_rotation[1][1] * t929);
+        let t1182 = P::mul_add(platform_rotation[2][0], t1000, platform_rotation[2][1] * t931);
+        // mass matrix M_b that couples the base acceleration
+        let t1183 = P::lane(t940, 2) + (P::lane(t940, 1) + P::lane(t940, 0));
+        let t1184 = P::lane(t941, 2) + (P::lane(t941, 1) + P::lane(t941, 0));
+        let t1185 = P::lane(t942, 2) + (P::lane(t942, 1) + P::lane(t942, 0));
+        // leg 3: rod's inertial coupling between its ends
+        let t1186 = -P::lane(t120, 2);
+        // leg 6: rod's inertial coupling between its ends
+        let t1187 = -P::lane(t111, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t1188 = P::mul_add(base_rotation[0][2], t1078, t1103);
+        let t1189 = P::mul_add(t13, P::lane(t724, 0), t1104);
+        let t1190 = P::mul_add(t8, P::lane(t724, 1), t1105);
+        let t1191 = -t1127;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1192 = neg_mul_add(P::splat(base_velocity[5]), t1028, t1111);
+        let t1193 = neg_mul_add(P::splat(base_velocity[4]), t1044, t1112);
+        // Coriolis matrix of the legs
+        let t1194 = P::triple([P::lane(t973, 2), P::lane(t974, 2), P::lane(t975, 2)]);
+        let t1195 = P::triple([P::lane(t976, 2), P::lane(t977, 2), P::lane(t978, 2)]);
+        let t1196 = t1133 + (t1056 + t1057 + t1113);
+        // mass matrix M_p of the platform
+        let t1197 = P::mul_add(platform_rotation[2][2], P::lane(t869, 2), t1116);
+        let t1198 = P::mul_add(platform_rotation[1][2], P::lane(t869, 2), t1117);
+        let t1199 = P::mul_add(platform_rotation[0][2], P::lane(t869, 2), t1118);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1200 = P::splat(t8) + t232;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1201 = P::splat(t8) + t208;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1202 = P::splat(t7) + t233;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1203 = P::splat(t7) + t209;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1204 = P::splat(t13) + t234;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1205 = P::splat(t13) + t210;
+        // part of the legs' mass matrix on the side of the axes
+        let t1206 = t573 - t1028;
+        // mass of payload and platform-side leg ends
+        let t1207 = P::lane(t1003, 2) + (P::lane(t1003, 1) + P::lane(t1003, 0));
+        // leg 3: rod's inertial coupling between its ends
+        let t1208 = P::triple([t1186, t1142, t1143]);
+        // leg 6: rod's inertial coupling between its ends
+        let t1209 = P::triple([t1187, t1144, t1145]);
+        // mass matrix M_b that couples the base acceleration
+        let t1210 = base_rotation[2][2] * t1122;
+        let t1211 = P::triple([base_rotation[0][1] * t983, t1187, t1147]);
+        let t1212 = base_rotation[2][2] * t1123;
+        let t1213 = P::triple([base_rotation[0][1] * t984, t1149, t1187]);
+        let t1214 = base_rotation[1][2] * t1124;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1215 = neg_mul_add(P::splat(base_velocity[3]), t1029, t1134);
+        // Coriolis matrix of the legs
+        let t1216 = P::triple([P::lane(t992, 2), P::lane(t993, 2), P::lane(t994, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1217 = P::mul_add(base_rotation[2][0], t1171, base_rotation[2][1] * t1093);
+        let t1218 = P::mul_add(base_rotation[0][0], t1172, base_rotation[0][1] * t1094);
+        let t1219 = P::mul_add(base_rotation[1][0], t1173, base_rotation[1][1] * t1095);
+        let t1220 = P::mul_add(platform_rotation[2][2], t1174, t1139);
+        let t1221 = P::mul_add(platform_rotation[1][2], t1174, t1140);
+        let t1222 = P::mul_add(platform_rotation[0][2], t1174, t1141);
+        let t1223 = P::mul_add(base_rotation[0][0], t1175, base_rotation[0][1] * t1096);
+        let t1224 = P::mul_add(base_rotation[1][0], t1175, base_rotation[1][1] * t1096);
+        let t1225 = P::triple([base_rotation[0][0] * t1050, t1186, t1146]) + t1211;
+        let t1226 = P::triple([base_rotation[0][0] * t1051, t1148, t1186]) + t1213;
+        // platform origin seen from the base
+        let t1227 = P::triple([t7, t13, t8]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1228 = P::triple([P::lane(t989, 2), P::lane(t989, 0), P::lane(t989, 1)]);
+        let t1229 = P::triple([P::lane(t990, 2), P::lane(t990, 0), P::lane(t990, 1)]);
+        let t1230 = P::triple([P::lane(t991, 2), P::lane(t991, 0), P::lane(t991, 1)]);
+        let t1231 = P::triple([P::lane(t1016, 2), P::lane(t1016, 0), P::lane(t1016, 1)]);
+        let t1232 = P::triple([P::lane(t1017, 2), P::lane(t1017, 0), P::lane(t1017, 1)]);
+        let t1233 = P::triple([P::lane(t1018, 2), P::lane(t1018, 0), P::lane(t1018, 1)]);
+        // mass matrix M_p of the platform
+        let t1234 = P::mul_add(platform_rotation[2][2], t1068, t1167);
+        let t1235 = P::mul_add(platform_rotation[2][2], t1170, t1169);
+        // Coriolis matrix C_p, natural factorisation
+        let t1236 = P::mul_sub(t435, c(0.5), t1168);
+        let t1237 = P::mul_sub(t435, c(0.5), t1166);
+        // mass matrix M_b that couples the base acceleration
+        let t1238 = P::lane(t1004, 2) + (P::lane(t1004, 1) + P::lane(t1004, 0));
+        let t1239 = P::mul_sub(t7, P::lane(t787, 0), t8 * P::lane(t787, 1));
+        let t1240 = P::mul_sub(t13, P::lane(t791, 1), t7 * P::lane(t791, 2));
+        let t1241 = P::lane(t1005, 2) + (P::lane(t1005, 1) + P::lane(t1005, 0));
+        let t1242 = P::lane(t1006, 2) + (P::lane(t1006, 1) + P::lane(t1006, 0));
+        let t1243 = P::mul_sub(t8, P::lane(t792, 2), t13 * P::lane(t792, 0));
+        let t1244 = P::lane(t1007, 2) + (P::lane(t1007, 1) + P::lane(t1007, 0));
+        let t1245 = P::lane(t1008, 2) + (P::lane(t1008, 1) + P::lane(t1008, 0));
+        let t1246 = P::lane(t1009, 2) + (P::lane(t1009, 1) + P::lane(t1009, 0));
+        let t1247 = P::lane(t1010, 2) + (P::lane(t1010, 1) + P::lane(t1010, 0));
+        let t1248 = P::lane(t1011, 2) + (P::lane(t1011, 1) + P::lane(t1011, 0));
+        let t1249 = P::lane(t1012, 2) + (P::lane(t1012, 1) + P::lane(t1012, 0));
+        let t1250 = P::mul_sub(t13, P::lane(t727, 1), t7 * P::lane(t727, 2));
+        let t1251 = P::lane(t1013, 2) + (P::lane(t1013, 1) + P::lane(t1013, 0));
+        let t1252 = P::mul_sub(t8, P::lane(t727, 2), t13 * P::lane(t727, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1253 = -P::lane(t698, 2);
+        let t1254 = -P::lane(t826, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t1255 = -(P::lane(t1048, 1) + P::lane(t1048, 0));
+        // their moment by platform joint and Hooke joint
+        let t1256 = -P::lane(t504, 1);
+        // mass matrix M_p of the platform
+        let t1257 = P::mul_add(platform_rotation[1][2], t1068, t1181);
+        let t1258 = P::mul_add(platform_rotation[2][2], t1070, t1182);
+        // part of the legs' mass matrix on the side of the axes
+        let t1259 = P::triple([P::lane(t656, 0), P::lane(t657, 0), P::lane(t658, 0)]);
+        let t1260 = P::triple([P::lane(t656, 1), P::lane(t657, 1), P::lane(t658, 1)]);
+        // mass matrix of the legs
+        let t1261 = P::triple([P::lane(t969, 2), P::lane(t1120, 2), t1253]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1262 = P::triple([P::lane(t656, 2), P::lane(t657, 2), P::lane(t658, 2)]);
+        // mass matrix of the legs
+        let t1263 = P::triple([P::lane(t970, 2), P::lane(t1121, 2), t1254]);
+        // mass of payload and platform-side leg ends
+        let t1264 = parameters.payload_mass + t1207;
+        // mass matrix M_b that couples the base acceleration
+        let t1265 = P::lane(t787, 0) - P::mul_add(base_rotation[0][2], t1122, t1099);
+        let t1266 = P::lane(t791, 1) - P::mul_add(base_rotation[1][2], t1123, t1100);
+        let t1267 = P::lane(t792, 2) - P::mul_add(base_rotation[2][2], t1124, t1101);
+        let t1268 = P::mul_add(t7, P::lane(t724, 2), t1102) - t1188;
+        // their moment by platform joint and Hooke joint
+        let t1269 = P::triple([-P::lane(t466, 0), t1189, t1190]);
+        // mass matrix M_b that couples the base acceleration
+        let t1270 = P::lane(t968, 1) - t1128 - P::mul_add(base_rotation[1][2], t1079, t1107);
+        let t1271 = P::triple([P::lane(t968, 0) - t1129, t1256, P::lane(t968, 2) - t1130]);
+        // Coriolis matrix of the legs
+        let t1272 = t1192 + (t1135 + t1136 + t1194);
+        let t1273 = t1193 + (t1137 + t1138 + t1195);
+        // mass matrix M_b that couples the base acceleration
+        let t1274 = P::mul_add(base_rotation[0][0], t1171, base_rotation[0][1] * t1093);
+        let t1275 = P::mul_add(base_rotation[1][0], t1172, base_rotation[1][1] * t1094);
+        let t1276 = P::mul_add(base_rotation[2][0], t1173, base_rotation[2][1] * t1095);
+        // mass matrix of the legs
+        let t1277 = t1176 - t1259;
+        let t1278 = t1206 - t1260;
+        let t1279 = t1261 + P::triple([c(0.0), c(0.0), P::lane(t792, 2)]);
+        let t1280 = t1177 - t1262;
+        // mass matrix M_b that couples the base acceleration
+        let t1281 = t1208 + t1209 + P::triple([t1255, base_rotation[1][2] * t1122, t1210]);
+        let t1282 = t1269 - (t1150 + P::triple([t1191, base_rotation[1][2] * t1078, t1151]));
+        let t1283 = t1271 - (t1152 + P::triple([base_rotation[0][2] * t1079, t1191, t1153]));
+        // Coriolis matrix of the legs
+        let t1284 = t1215 + (t1154 + t1155 + t1216);
+        // mass matrix M_b that couples the base acceleration
+        let t1285 = P::mul_sub(t13, P::lane(t787, 1), t7 * P::lane(t787, 2));
+        let t1286 = P::mul_sub(t8, P::lane(t787, 2), t13 * P::lane(t787, 0));
+        let t1287 = P::mul_add(base_rotation[1][0], t1171, base_rotation[1][1] * t1093);
+        let t1288 = P::mul_sub(t8, P::lane(t791, 2), t13 * P::lane(t791, 0));
+        let t1289 = P::mul_sub(t7, P::lane(t791, 0), t8 * P::lane(t791, 1));
+        let t1290 = P::mul_add(base_rotation[2][0], t1172, base_rotation[2][1] * t1094);
+        let t1291 = P::mul_sub(t13, P::lane(t792, 1), t7 * P::lane(t792, 2));
+        let t1292 = P::mul_add(base_rotation[0][0], t1173, base_rotation[0][1] * t1095);
+        let t1293 = P::mul_sub(t7, P::lane(t792, 0), t8 * P::lane(t792, 1));
+        let t1294 = P::mul_add(base_rotation[1][0], t1244, base_rotation[1][1] * t1183);
+        let t1295 = P::mul_add(base_rotation[2][0], t1244, base_rotation[2][1] * t1183);
+        let t1296 = P::mul_add(base_rotation[0][0], t1246, base_rotation[0][1] * t1184);
+        let t1297 = P::mul_add(base_rotation[2][0], t1246, base_rotation[2][1] * t1184);
+        let t1298 = P::mul_add(base_rotation[0][0], t1248, base_rotation[0][1] * t1185);
+        let t1299 = P::mul_add(base_rotation[1][0], t1248, base_rotation[1][1] * t1185);
+        let t1300 = P::mul_sub(t7, P::lane(t727, 0), t8 * P::lane(t727, 1));
+        let t1301 = P::mul_add(base_rotation[2][0], t1175, base_rotation[2][1] * t1096);
+        // their moment by platform joint and Hooke joint
+        let t1302 = -P::lane(t466, 1);
+        let t1303 = -P::lane(t466, 2);
+        // mass matrix M_p of the platform
+        let t1304 = P::lane(t614, 2) + (P::lane(t614, 1) + P::lane(t614, 0));
+        // Coriolis matrix C_p, natural factorisation
+        let t1305 = P::mul_add(platform_velocity[5], t1236, P::lane(t1178, 1));
+        let t1306 = P::mul_sub(t435, c(0.5), t1235);
+        let t1307 = P::mul_add(platform_velocity[5], t1234, P::lane(t1179, 2));
+        let t1308 = P::mul_add(platform_velocity[4], t1237, P::lane(t1196, 0));
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1309 = mul_sub(t261, t1202, t260 * t1204);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1310 = mul_sub(t237, t1203, t236 * t1205);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1311 = mul_sub(t235, t1204, t261 * t1200);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1312 = mul_sub(t211, t1205, t237 * t1201);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1313 = mul_sub(t260, t1200, t235 * t1202);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1314 = mul_sub(t236, t1201, t211 * t1203);
+        // mass matrix M_p of the platform
+        let t1315 = P::triple([c(0.0), t1264, c(0.0)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1316 = P::triple([P::lane(t791, 0), t1266, P::lane(t791, 2)]);
+        let t1317 = P::triple([P::lane(t792, 0), P::lane(t792, 1), t1267]);
+        // their moment by platform joint and Hooke joint
+        let t1318 = P::triple([-P::lane(t504, 0), t1270, -P::lane(t504, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1319 = t1192 + mul_add(t1227, t1228, neg_mul_add(t1156, t1157, t1158));
+        let t1320 = t1215 + mul_add(t1227, t1229, neg_mul_add(t1156, t1159, t1160));
+        let t1321 = t1193 + mul_add(t1227, t1230, neg_mul_add(t1156, t1161, t1162));
+        let t1322 = t1108 + mul_add(t1227, t1231, neg_mul_add(t1156, t1163, t1114));
+        let t1323 = t1109 + mul_add(t1227, t1232, neg_mul_add(t1156, t1164, t1115));
+        let t1324 = t1133 + mul_add(t1227, t1233, t1180);
+        // Coriolis matrix C_p, natural factorisation
+        let t1325 = P::mul_sub(platform_velocity[3], t1198, platform_velocity[4] * t1199);
+        let t1326 = P::mul_sub(platform_velocity[5], t1199, platform_velocity[3] * t1197);
+        let t1327 = P::mul_sub(platform_velocity[4], t1197, platform_velocity[5] * t1198);
+        let t1328 = P::mul_sub(platform_velocity[5], t1257, P::lane(t1178, 0));
+        let t1329 = P::neg_mul_add(platform_velocity[5], t1258, P::lane(t1178, 2));
+        let t1330 = P::neg_mul_add(platform_velocity[5], t1237, P::lane(t1179, 0));
+        let t1331 = P::mul_sub(platform_velocity[3], t1258, P::lane(t1179, 1));
+        let t1332 = P::neg_mul_add(platform_velocity[4], t1257, P::lane(t1196, 1));
+        let t1333 = P::mul_sub(platform_velocity[4], t1234, P::lane(t1196, 2));
+        // mass matrix of the legs
+        let t1334 = t1120 + t1315;
+        let t1335 = t1279 + P::triple([c(0.0), c(0.0), t1264]);
+        // mass matrix M_b that couples the base acceleration
+        let t1336 = P::triple([t1265, P::lane(t787, 1), P::lane(t787, 2)]) - t1281;
+        let t1337 = t1316 - (t1225 + P::triple([base_rotation[0][2] * t1123, t1255, t1212]));
+        let t1338 = t1317 - (t1226 + P::triple([base_rotation[0][2] * t1124, t1214, t1255]));
+        let t1339 = t1282 + P::triple([t1268, t1302, t1303]);
+        let t1340 = t1283 + t1318;
+        let t1341 = P::mul_add(base_rotation[0][0], t1244, base_rotation[0][1] * t1183);
+        let t1342 = P::mul_add(base_rotation[1][0], t1246, base_rotation[1][1] * t1184);
+        let t1343 = P::mul_add(base_rotation[2][0], t1248, base_rotation[2][1] * t1185);
+        // mass of payload and platform-side leg ends
+        let t1344 = P::triple([t1264, c(0.0), c(0.0)]);
+        // mass matrix M_p of the platform
+        let t1345 = t1304 - t1235;
+        // mass matrix M_b that couples the base acceleration
+        let t1346 = P::neg_mul_add(base_rotation[1][2], t1238, P::lane(t500, 2)) - t1287;
+        let t1347 = P::lane(t1176, 2) - t1239 - P::mul_add(base_rotation[2][2], t1238, t1217);
+        let t1348 = P::lane(t1206, 0) - t1240 - P::mul_add(base_rotation[0][2], t1241, t1218);
+        let t1349 = P::neg_mul_add(base_rotation[2][2], t1241, P::lane(t500, 0)) - t1290;
+        let t1350 = P::neg_mul_add(base_rotation[0][2], t1242, P::lane(t500, 1)) - t1292;
+        let t1351 = P::lane(t1177, 1) - t1243 - P::mul_add(base_rotation[1][2], t1242, t1219);
+        let t1352 = P::neg_mul_add(base_rotation[1][2], t1245, P::lane(t724, 1)) - t1294;
+        let t1353 = P::neg_mul_add(base_rotation[2][2], t1245, t1221) - t1295;
+        let t1354 = P::neg_mul_add(base_rotation[0][2], t1247, t1220) - t1296;
+        let t1355 = P::neg_mul_add(base_rotation[2][2], t1247, P::lane(t726, 2)) - t1297;
+        let t1356 = P::neg_mul_add(base_rotation[0][2], t1249, P::lane(t727, 0)) - t1298;
+        let t1357 = P::neg_mul_add(base_rotation[1][2], t1249, t1222) - t1299;
+        let t1358 = P::lane(t1119, 0) - t1250 - P::mul_add(base_rotation[0][2], t1251, t1223);
+        let t1359 = P::lane(t1119, 1) - t1252 - P::mul_add(base_rotation[1][2], t1251, t1224);
+        let t1360 = P::neg_mul_add(base_rotation[2][2], t1251, t1127) - t1301;
+        // mass matrix M_p of the platform
+        let t1361 = t1197 + P::lane(t1277, 1);
+        mass_matrix_p[0][4] = t1361;
+        mass_matrix_p[4][0] = t1361;
+        let t1362 = P::lane(t1277, 2) - t1198;
+        mass_matrix_p[0][5] = t1362;
+        mass_matrix_p[5][0] = t1362;
+        let t1363 = P::lane(t1278, 0) - t1197;
+        mass_matrix_p[1][3] = t1363;
+        mass_matrix_p[3][1] = t1363;
+        let t1364 = t1199 + P::lane(t1278, 2);
+        mass_matrix_p[1][5] = t1364;
+        mass_matrix_p[5][1] = t1364;
+        let t1365 = t1198 + P::lane(t1280, 0);
+        mass_matrix_p[2][3] = t1365;
+        mass_matrix_p[3][2] = t1365;
+        let t1366 = P::lane(t1280, 1) - t1199;
+        mass_matrix_p[2][4] = t1366;
+        mass_matrix_p[4][2] = t1366;
+        let t1367 = P::lane(t970, 1) - t1257;
+        mass_matrix_p[3][4] = t1367;
+        mass_matrix_p[4][3] = t1367;
+        let t1368 = P::lane(t970, 2) - t1234;
+        mass_matrix_p[3][5] = t1368;
+        mass_matrix_p[5][3] = t1368;
+        let t1369 = P::lane(t1121, 2) - t1258;
+        mass_matrix_p[4][5] = t1369;
+        mass_matrix_p[5][4] = t1369;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1370 = -P::lane(t989, 1);
+        coriolis_matrix_p[0][1] = t1370;
+        coriolis_matrix_b[0][1] = t1370;
+        let t1371 = -P::lane(t989, 2);
+        coriolis_matrix_p[0][2] = t1371;
+        coriolis_matrix_b[0][2] = t1371;
+        let t1372 = -P::lane(t989, 0);
+        coriolis_matrix_p[0][0] = t1372;
+        coriolis_matrix_b[0][0] = t1372;
+        let t1373 = -P::lane(t990, 1);
+        coriolis_matrix_p[1][1] = t1373;
+        coriolis_matrix_b[1][1] = t1373;
+        let t1374 = -P::lane(t990, 2);
+        coriolis_matrix_p[1][2] = t1374;
+        coriolis_matrix_b[1][2] = t1374;
+        let t1375 = -P::lane(t990, 0);
+        coriolis_matrix_p[1][0] = t1375;
+        coriolis_matrix_b[1][0] = t1375;
+        let t1376 = -P::lane(t991, 1);
+        coriolis_matrix_p[2][1] = t1376;
+        coriolis_matrix_b[2][1] = t1376;
+        let t1377 = -P::lane(t991, 2);
+        coriolis_matrix_p[2][2] = t1377;
+        coriolis_matrix_b[2][2] = t1377;
+        let t1378 = -P::lane(t991, 0);
+        coriolis_matrix_p[2][0] = t1378;
+        coriolis_matrix_b[2][0] = t1378;
+        let t1379 = -P::lane(t1016, 1);
+        coriolis_matrix_p[3][1] = t1379;
+        coriolis_matrix_b[3][1] = t1379;
+        let t1380 = -P::lane(t1016, 2);
+        coriolis_matrix_p[3][2] = t1380;
+        coriolis_matrix_b[3][2] = t1380;
+        let t1381 = -P::lane(t1016, 0);
+        coriolis_matrix_p[3][0] = t1381;
+        coriolis_matrix_b[3][0] = t1381;
+        let t1382 = -P::lane(t1017, 1);
+        coriolis_matrix_p[4][1] = t1382;
+        coriolis_matrix_b[4][1] = t1382;
+        let t1383 = -P::lane(t1017, 2);
+        coriolis_matrix_p[4][2] = t1383;
+        coriolis_matrix_b[4][2] = t1383;
+        let t1384 = -P::lane(t1017, 0);
+        coriolis_matrix_p[4][0] = t1384;
+        coriolis_matrix_b[4][0] = t1384;
+        let t1385 = -P::lane(t1018, 1);
+        coriolis_matrix_p[5][1] = t1385;
+        coriolis_matrix_b[5][1] = t1385;
+        let t1386 = -P::lane(t1018, 2);
+        coriolis_matrix_p[5][2] = t1386;
+        coriolis_matrix_b[5][2] = t1386;
+        let t1387 = -P::lane(t1018, 0);
+        coriolis_matrix_p[5][0] = t1387;
+        coriolis_matrix_b[5][0] = t1387;
+        // mass matrix M_p of the platform
+        mass_matrix_p[0][0] = P::lane(t969 + t1344, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t969, 1);
+        mass_matrix_p[0][2] = P::lane(t969, 2);
+        mass_matrix_p[0][3] = P::lane(t1277, 0);
+        mass_matrix_p[1][0] = P::lane(t969, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t1334, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t1120, 2);
+        mass_matrix_p[1][4] = P::lane(t1278, 1);
+        mass_matrix_p[2][0] = P::lane(t969, 2);
+        mass_matrix_p[2][1] = P::lane(t1120, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t1335, 2);
+        // mass matrix of the legs
+        mass_matrix_p[2][5] = P::lane(t1280, 2);
+        mass_matrix_p[3][0] = P::lane(t1277, 0);
+        // mass matrix M_p of the platform
+        mass_matrix_p[3][3] = t1304 - t1166 + P::lane(t970, 0);
+        // mass matrix of the legs
+        mass_matrix_p[4][1] = P::lane(t1278, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[4][4] = P::lane(t1121, 1) + (t1304 - t1168);
+        // mass matrix of the legs
+        mass_matrix_p[5][2] = P::lane(t1280, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[5][5] =
+            P::lane(t1263 + P::triple([c(0.0), c(0.0), P::lane(t1119, 2)]), 2) + t1345;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][3] = -P::lane(t1272, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t1325 - P::lane(t1272, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t1272, 2) + t1326);
+        coriolis_matrix_p[1][3] = -(t1325 + P::lane(t1284, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t1284, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t1327 - P::lane(t1284, 2);
+        coriolis_matrix_p[2][3] = t1326 - P::lane(t1273, 0);
+        coriolis_matrix_p[2][4] = -(t1327 + P::lane(t1273, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t1273, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t1234, t1328);
+        coriolis_matrix_p[3][4] = -P::mul_add(platform_velocity[4], t1258, t1305);
+        coriolis_matrix_p[3][5] = P::mul_sub(platform_velocity[4], t1306, t1329);
+        coriolis_matrix_p[4][3] = P::mul_sub(platform_velocity[3], t1234, t1330);
+        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t1257, t1331);
+        coriolis_matrix_p[4][5] = -P::mul_add(platform_velocity[3], t1306, t1307);
+        coriolis_matrix_p[5][3] = -P::mul_add(platform_velocity[3], t1257, t1308);
+        coriolis_matrix_p[5][4] = P::mul_sub(platform_velocity[3], t1236, t1332);
+        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t1258, t1333);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t235, 0);
+        jacobian_dp[0][1] = P::lane(t260, 0);
+        jacobian_dp[0][2] = P::lane(t261, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t332, 0);
+        jacobian_dp[0][4] = P::lane(t333, 0);
+        jacobian_dp[0][5] = P::lane(t334, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t235, 1);
+        jacobian_dp[1][1] = P::lane(t260, 1);
+        jacobian_dp[1][2] = P::lane(t261, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t332, 1);
+        jacobian_dp[1][4] = P::lane(t333, 1);
+        jacobian_dp[1][5] = P::lane(t334, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t235, 2);
+        jacobian_dp[2][1] = P::lane(t260, 2);
+        jacobian_dp[2][2] = P::lane(t261, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t332, 2);
+        jacobian_dp[2][4] = P::lane(t333, 2);
+        jacobian_dp[2][5] = P::lane(t334, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t211, 0);
+        jacobian_dp[3][1] = P::lane(t236, 0);
+        jacobian_dp[3][2] = P::lane(t237, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t305, 0);
+        jacobian_dp[3][4] = P::lane(t306, 0);
+        jacobian_dp[3][5] = P::lane(t307, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t211, 1);
+        jacobian_dp[4][1] = P::lane(t236, 1);
+        jacobian_dp[4][2] = P::lane(t237, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t305, 1);
+        jacobian_dp[4][4] = P::lane(t306, 1);
+        jacobian_dp[4][5] = P::lane(t307, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t211, 2);
+        jacobian_dp[5][1] = P::lane(t236, 2);
+        jacobian_dp[5][2] = P::lane(t237, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t305, 2);
+        jacobian_dp[5][4] = P::lane(t306, 2);
+        jacobian_dp[5][5] = P::lane(t307, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t1336, 0);
+        mass_matrix_b[0][1] = P::lane(t1336, 1);
+        mass_matrix_b[0][2] = P::lane(t1336, 2);
+        mass_matrix_b[0][3] =
+            P::lane(t1176, 0) - t1285 - P::mul_add(base_rotation[0][2], t1238, t1274);
+        mass_matrix_b[0][4] = P::lane(t1176, 1) - t1286 + t1346;
+        mass_matrix_b[0][5] = t1347 - P::lane(t500, 1);
+        mass_matrix_b[1][0] = P::lane(t1337, 0);
+        mass_matrix_b[1][1] = P::lane(t1337, 1);
+        mass_matrix_b[1][2] = P::lane(t1337, 2);
+        mass_matrix_b[1][3] = t1348 - P::lane(t500, 2);
+        mass_matrix_b[1][4] =
+            P::lane(t1206, 1) - t1288 - P::mul_add(base_rotation[1][2], t1241, t1275);
+        mass_matrix_b[1][5] = P::lane(t1206, 2) - t1289 + t1349;
+        mass_matrix_b[2][0] = P::lane(t1338, 0);
+        mass_matrix_b[2][1] = P::lane(t1338, 1);
+        mass_matrix_b[2][2] = P::lane(t1338, 2);
+        mass_matrix_b[2][3] = P::lane(t1177, 0) - t1291 + t1350;
+        mass_matrix_b[2][4] = t1351 - P::lane(t500, 0);
+        mass_matrix_b[2][5] =
+            P::lane(t1177, 2) - t1293 - P::mul_add(base_rotation[2][2], t1242, t1276);
+        mass_matrix_b[3][0] = P::neg_mul_add(base_rotation[0][2], t1245, P::lane(t724, 0)) - t1341;
+        mass_matrix_b[3][1] = t1352 - t1220;
+        mass_matrix_b[3][2] = P::lane(t724, 2) + t1353;
+        mass_matrix_b[3][3] = P::lane(t1339, 0);
+        mass_matrix_b[3][4] = P::lane(t1339, 1);
+        mass_matrix_b[3][5] = P::lane(t1339, 2);
+        mass_matrix_b[4][0] = P::lane(t726, 0) + t1354;
+        mass_matrix_b[4][1] = P::neg_mul_add(base_rotation[1][2], t1247, P::lane(t726, 1)) - t1342;
+        mass_matrix_b[4][2] = t1355 - t1222;
+        mass_matrix_b[4][3] = P::lane(t1340, 0);
+        mass_matrix_b[4][4] = P::lane(t1340, 1);
+        mass_matrix_b[4][5] = P::lane(t1340, 2);
+        mass_matrix_b[5][0] = t1356 - t1221;
+        mass_matrix_b[5][1] = P::lane(t727, 1) + t1357;
+        mass_matrix_b[5][2] = P::neg_mul_add(base_rotation[2][2], t1249, P::lane(t727, 2)) - t1343;
+        mass_matrix_b[5][3] = t1358 - P::lane(t501, 0);
+        mass_matrix_b[5][4] = t1359 - P::lane(t501, 1);
+        mass_matrix_b[5][5] = P::lane(t1119, 2) - t1300 + t1360;
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = -P::lane(t1319, 0);
+        coriolis_matrix_b[0][4] = -P::lane(t1319, 1);
+        coriolis_matrix_b[0][5] = -P::lane(t1319, 2);
+        coriolis_matrix_b[1][3] = -P::lane(t1320, 0);
+        coriolis_matrix_b[1][4] = -P::lane(t1320, 1);
+        coriolis_matrix_b[1][5] = -P::lane(t1320, 2);
+        coriolis_matrix_b[2][3] = -P::lane(t1321, 0);
+        coriolis_matrix_b[2][4] = -P::lane(t1321, 1);
+        coriolis_matrix_b[2][5] = -P::lane(t1321, 2);
+        coriolis_matrix_b[3][3] = -P::lane(t1322, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t1322, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t1322, 2);
+        coriolis_matrix_b[4][3] = -P::lane(t1323, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t1323, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t1323, 2);
+        coriolis_matrix_b[5][3] = -P::lane(t1324, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t1324, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t1324, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t235, 0);
+        jacobian_db[0][1] = P::lane(t260, 0);
+        jacobian_db[0][2] = P::lane(t261, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t1309, 0);
+        jacobian_db[0][4] = P::lane(t1311, 0);
+        jacobian_db[0][5] = P::lane(t1313, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t235, 1);
+        jacobian_db[1][1] = P::lane(t260, 1);
+        jacobian_db[1][2] = P::lane(t261, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t1309, 1);
+        jacobian_db[1][4] = P::lane(t1311, 1);
+        jacobian_db[1][5] = P::lane(t1313, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t235, 2);
+        jacobian_db[2][1] = P::lane(t260, 2);
+        jacobian_db[2][2] = P::lane(t261, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t1309, 2);
+        jacobian_db[2][4] = P::lane(t1311, 2);
+        jacobian_db[2][5] = P::lane(t1313, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t211, 0);
+        jacobian_db[3][1] = P::lane(t236, 0);
+        jacobian_db[3][2] = P::lane(t237, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t1310, 0);
+        jacobian_db[3][4] = P::lane(t1312, 0);
+        jacobian_db[3][5] = P::lane(t1314, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t211, 1);
+        jacobian_db[4][1] = P::lane(t236, 1);
+        jacobian_db[4][2] = P::lane(t237, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t1310, 1);
+        jacobian_db[4][4] = P::lane(t1312, 1);
+        jacobian_db[4][5] = P::lane(t1314, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t211, 2);
+        jacobian_db[5][1] = P::lane(t236, 2);
+        jacobian_db[5][2] = P::lane(t237, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t1310, 2);
+        jacobian_db[5][4] = P::lane(t1312, 2);
+        jacobian_db[5][5] = P::lane(t1314, 2);
+    }
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    let t39 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t44 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t45 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    let t46 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
+    // legs 4, 5, 6: platform joint from the base point
+    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
+    // legs 1, 2, 3: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+    // constant and copied elements
+    let t50 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t51 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+    let t52 =
+        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+    // constant and copied elements
+    let t54 =
+        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+    let t55 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    let t56 =
+        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
+    // legs 4, 5, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+    // constant and copied elements
+    let t59 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+    // angular velocity of the base
+    let t60 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t61 = t59 * t59;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t62 = neg_mul_add(t39, t57, t43);
+    let t63 = neg_mul_add(t44, t57, t42);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t65 = neg_mul_add(t51, t57, t49);
+    // angular velocity of the base
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    // velocity of the platform origin relative to the base
+    let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // constant and copied elements
+    let t68 =
+        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+    // angular velocity of the platform
+    let t69 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t70 = t68 * t68;
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t52, t64, t48);
+    let t72 = neg_mul_add(t54, t64, t53);
+    let t73 = neg_mul_add(t56, t64, t58);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t74 = mul_add(t63, t63, t62 * t62);
+    // angular velocity of the base
+    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    // velocity of the platform origin relative to the base
+    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    // constant and copied elements
+    let t77 =
+        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+    // angular velocity of the platform
+    let t78 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t79 = mul_add(t72, t72, t71 * t71);
+    // angular acceleration of the base
+    let t80 = t1 * P::splat(base_acceleration[4]);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t81 = t77 / t70;
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t82 = sqrt(neg_mul_add(t65, t65, t61) - t74);
+    // velocity of the platform origin relative to the base
+    let t83 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
+    // angular acceleration of the platform
+    let t84 = t1 * P::splat(platform_acceleration[4]);
+    // constant and copied elements
+    let t85 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    // angular acceleration of the base
+    let t86 = mul_add(t2, P::splat(base_acceleration[3]), t80);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t87 = t85 / t61;
+    // angular velocity of the platform
+    let t88 = mul_add(t5, P::splat(platform_velocity[5]), t78);
+    // platform origin seen from the base
+    let t89 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    // angular acceleration of the platform
+    let t91 = mul_add(t2, P::splat(platform_acceleration[3]), t84);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t92 = sqrt(neg_mul_add(t73, t73, t70) - t79);
+    // angular acceleration of the base
+    let t93 = mul_add(t5, P::splat(base_acceleration[5]), t86);
+    // angular velocity of the base
+    let t94 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t95 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
+    // angular velocity of the platform relative to the base
+    let t96 = t75 - t88;
+    // platform origin seen from the base
+    let t97 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t98 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t99 = t94 * t95;
+    // velocity of the platform origin relative to the base
+    let t100 = mul_add(t97, t98, neg_mul_add(t89, t90, t83));
+    // angular acceleration of the platform
+    let t101 = mul_add(t5, P::splat(platform_acceleration[5]), t91);
+    // constant and copied elements
+    let t102 =
+        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
+    let t103 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    // angular velocity of the base
+    let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t105 = t102 * t103;
+    // constant and copied elements
+    let t106 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+    let t107 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    // acceleration of the base origin less gravity
+    let t108 = base_acceleration[0] - parameters.gravity[0];
+    let t109 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t110 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration of the platform origin less gravity
+    let t111 = parameters.gravity[0] - platform_acceleration[0];
+    let t112 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t113 = t106 * t107;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t114 = mul_add(t102, t105, t81);
+    // acceleration per base coordinate of points that move with the base
+    let t115 = mul_add(t110, t110, t104 * t104);
+    // angular acceleration of the base
+    let t116 = P::triple([P::lane(t93, 1), P::lane(t93, 2), P::lane(t93, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t117 = P::triple([P::lane(t99, 2), P::lane(t99, 0), P::lane(t99, 1)]);
+    // angular velocity of the platform relative to the base
+    let t118 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    // angular acceleration of the base
+    let t119 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t120 = t116 + t117;
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t121 = mul_add(t106, t113, t87);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t122 = neg_mul_add(t32, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
+    // acceleration of the base origin less gravity
+    let t123 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t124 = mul_sub(t94, t95, t119);
+    // acceleration of the platform origin less gravity
+    let t125 = parameters.gravity[2] - platform_acceleration[2];
+    // angular velocity of the platform
+    let t126 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t127 = t90 + t126;
+    // angular velocity of the platform relative to the base
+    let t128 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t129 = w(1.0) / t82;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t130 = neg_mul_add(t37, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
+    // acceleration of the base origin less gravity
+    let t131 = mul_add(t5, P::splat(t123), mul_add(t2, P::splat(t108), t109));
+    // acceleration of the platform origin less gravity
+    let t132 = mul_add(t5, P::splat(t125), mul_add(t2, P::splat(t111), t112));
+    // rate of that angular velocity
+    let t133 = mul_add(t98, t128, neg_mul_add(t90, t118, t93 - t101));
+    // second moment of payload and platform-side leg ends
+    let t134 = mul_add(t121, t12 * t12, t114 * (t19 * t19));
+    let t135 = mul_add(t121, t9 * t12, t114 * (t18 * t19));
+    let t136 = mul_add(t121, t12 * t13, t114 * (t19 * t20));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t137 = mul_add(t37, P::splat(P::lane(t96, 0)), t122);
+    // acceleration per base coordinate of points that move with the base
+    let t138 = P::triple([P::lane(t124, 0), -P::lane(t115, 1), P::lane(t120, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t139 = mul_add(t33, P::splat(P::lane(t96, 2)), t130);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t140 = neg_mul_add(t40, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t141 = neg_mul_add(t33, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t142 = P::splat(P::lane(t22, 1)) * t138;
+    // acceleration per base coordinate of points that move with the base
+    let t143 = P::triple([-P::lane(t115, 0), P::lane(t120, 1), P::lane(t124, 2)]);
+    let t144 = P::triple([P::lane(t120, 0), P::lane(t124, 1), -P::lane(t115, 2)]);
+    // velocity of the platform origin relative to the base
+    let t145 = P::triple([P::lane(t100, 1), P::lane(t100, 2), P::lane(t100, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t146 = P::triple([P::lane(t127, 1), P::lane(t127, 2), P::lane(t127, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t147 = t37 * P::splat(P::lane(t133, 0));
+    // legs 4, 5, 6: reciprocal of that extent
+    let t148 = w(1.0) / t92;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t149 = neg_mul_add(t47, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t150 = mul_add(P::splat(P::lane(t22, 2)), t144, t131 + t132);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t151 = mul_add(t47, P::splat(P::lane(t96, 0)), t140);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t152 = mul_add(t32, P::splat(P::lane(t96, 1)), t141);
+    // second moment of payload and platform-side leg ends
+    let t153 = mul_add(t121, t9 * t9, t114 * (t18 * t18));
+    let t154 = mul_add(t121, t9 * t13, t114 * (t18 * t20));
+    let t155 = P::triple([P::lane(t134, 0), P::lane(t135, 0), P::lane(t136, 0)]);
+    let t156 = P::triple([P::lane(t134, 1), P::lane(t135, 1), P::lane(t136, 1)]);
+    // velocity of the platform origin relative to the base
+    let t157 = P::triple([P::lane(t100, 2), P::lane(t100, 0), P::lane(t100, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t158 = t33 * P::splat(P::lane(t133, 2));
+    let t159 = mul_sub(t32, P::splat(P::lane(t133, 2)), t147);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t160 = mul_add(t36, P::splat(P::lane(t96, 2)), t149);
+    let t161 = neg_mul_add(t36, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t162 = mul_add(P::splat(P::lane(t22, 0)), t143, t142) + t150;
+    // second moment of payload and platform-side leg ends
+    let t163 = P::triple([P::lane(t134, 2), P::lane(t135, 2), P::lane(t136, 2)]);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t164 = mul_add(t51, t152, mul_add(t44, t139, t39 * t137));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t165 = mul_sub(t37, P::splat(P::lane(t133, 1)), t158);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t166 = mul_add(t62, t129, t39);
+    // second moment of payload and platform-side leg ends
+    let t167 = t155 + t156 + t163;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t168 = mul_add(P::splat(P::lane(t96, 2)), t139, t159);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t169 = t47 * P::splat(P::lane(t133, 0));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t170 = t32 * P::splat(P::lane(t133, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t171 = mul_sub(t127, t157, t145 * t146) + t162;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t172 = mul_add(t40, P::splat(P::lane(t96, 1)), t161);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t173 = mul_add(t63, t129, t44);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t174 = neg_mul_add(t39, t164, t137);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t175 = mul_add(P::splat(P::lane(t96, 1)), t152, t165);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t176 = t36 * P::splat(P::lane(t133, 2));
+    let t177 = mul_sub(t40, P::splat(P::lane(t133, 2)), t169);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t178 = mul_sub(t33, P::splat(P::lane(t133, 0)), t170);
+    // second moment of payload and platform-side leg ends
+    let t179 = mul_add(t121, t13 * t13, t114 * (t20 * t20));
+    let t180 = P::lane(t154, 1) + P::lane(t154, 0);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t181 = neg_mul_add(P::splat(P::lane(t96, 0)), t152, t168);
+    // legs 1, 2, 3: actuator length d
+    let t182 = t57 - t82;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t183 = neg_mul_add(t44, t164, t139);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t184 = mul_add(t56, t172, mul_add(t54, t160, t52 * t151));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t185 = mul_sub(t47, P::splat(P::lane(t133, 1)), t176);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t186 = mul_add(t71, t148, t52);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t187 = mul_add(t65, t129, t51);
+    // second moment of payload and platform-side leg ends
+    let t188 = P::triple([P::lane(t167, 1), P::lane(t153, 2), P::lane(t154, 2)]);
+    let t189 = P::triple([c(0.0), P::lane(t153, 1) + P::lane(t153, 0), t180]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t190 = neg_mul_add(P::splat(P::lane(t96, 2)), t137, t175);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t191 = mul_add(P::splat(P::lane(t96, 2)), t160, t177);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t192 = mul_add(P::splat(P::lane(t96, 0)), t137, t178);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t193 = t40 * P::splat(P::lane(t133, 1));
+    // second moment of payload and platform-side leg ends
+    let t194 = t188 + t189;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t195 = P::splat(P::lane(t171, 1)) + t181;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t196 = mul_add(t39, t182, t21);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t197 = mul_add(t72, t148, t54);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t198 = neg_mul_add(t52, t184, t151);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t199 = neg_mul_add(t51, t164, t152);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t200 = mul_add(P::splat(P::lane(t96, 1)), t172, t185);
+    let t201 = mul_sub(t36, P::splat(P::lane(t133, 0)), t193);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t202 = mul_add(t152, t187, mul_add(t139, t173, t137 * t166));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t203 = t190 + P::splat(P::lane(t171, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t204 = neg_mul_add(P::splat(P::lane(t96, 0)), t172, t191);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t205 = neg_mul_add(P::splat(P::lane(t96, 1)), t139, t192);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t206 = mul_add(t44, t182, t38);
+    let t207 = mul_add(t51, t182, t46);
+    // legs 4, 5, 6: actuator length d
+    let t208 = t64 - t92;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t209 = P::splat(P::lane(t124, 0)) * t196;
+    let t210 = P::splat(P::lane(t115, 1)) * t196;
+    let t211 = P::splat(P::lane(t120, 2)) * t196;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t212 = neg_mul_add(t54, t184, t160);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t213 = mul_add(t73, t148, t56);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t214 = neg_mul_add(P::splat(P::lane(t96, 2)), t151, t200);
+    let t215 = mul_add(P::splat(P::lane(t96, 0)), t151, t201);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t216 = mul_add(t199, t199, mul_add(t183, t183, t174 * t174));
+    // second moment of payload and platform-side leg ends
+    let t217 = P::triple([P::lane(t167, 2), P::lane(t194, 2), P::lane(t179, 2)]);
+    let t218 = P::triple([c(0.0), c(0.0), P::lane(t179, 1) + P::lane(t179, 0)]);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t219 = t164 - t202;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t220 = P::splat(P::lane(t171, 1)) + t204;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t221 = P::splat(P::lane(t171, 2)) + t205;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t222 = mul_add(P::splat(P::lane(t120, 0)), t207, P::splat(P::lane(t131, 0)));
+    let t223 = t39 * P::splat(P::lane(t75, 2));
+    let t224 = mul_add(P::splat(P::lane(t124, 1)), t207, P::splat(P::lane(t131, 1)));
+    let t225 = t51 * P::splat(P::lane(t75, 0));
+    let t226 = neg_mul_add(P::splat(P::lane(t115, 2)), t207, P::splat(P::lane(t131, 2)));
+    let t227 = t44 * P::splat(P::lane(t75, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t228 = mul_add(t52, t208, t45);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t229 = neg_mul_add(t56, t184, t172);
+    // second moment of payload and platform-side leg ends
+    let t230 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t231 = mul_add(t172, t213, mul_add(t160, t197, t151 * t186));
+    // angular acceleration of the platform
+    let t232 = P::triple([P::lane(t101, 2), P::lane(t101, 0), P::lane(t101, 1)]);
+    // rotation of the platform seen from the base
+    let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t234 = P::splat(P::lane(t171, 0)) + t214;
+    let t235 = neg_mul_add(P::splat(P::lane(t96, 1)), t160, t215);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t236 = mul_add(t187, t221, mul_add(t173, t203, t166 * t195));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t237 = mul_sub(t51, P::splat(P::lane(t75, 1)), t223);
+    let t238 = mul_sub(t44, P::splat(P::lane(t75, 2)), t225);
+    let t239 = mul_sub(t39, P::splat(P::lane(t75, 0)), t227);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t240 = mul_add(t54, t208, t50);
+    let t241 = mul_add(t56, t208, t55);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t242 = t222 - mul_sub(P::splat(P::lane(t115, 0)), t206, t209);
+    let t243 = t202 * w(2.0);
+    let t244 = mul_sub(P::splat(P::lane(t120, 1)), t206, t210) + t224;
+    let t245 = mul_add(P::splat(P::lane(t124, 2)), t206, t211) + t226;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t246 = P::splat(P::lane(t124, 0)) * t228;
+    let t247 = P::splat(P::lane(t115, 1)) * t228;
+    let t248 = P::splat(P::lane(t120, 2)) * t228;
+    // second moment of payload and platform-side leg ends
+    let t249 = t230 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t250 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t251 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // angular acceleration of the platform
+    let t252 = P::triple([P::lane(t101, 1), P::lane(t101, 2), P::lane(t101, 0)]);
+    // rotation of the platform seen from the base
+    let t253 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t254 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t255 = mul_sub(t88, t233, t14 * t126);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t256 = mul_add(t229, t229, mul_add(t212, t212, t198 * t198));
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t257 = t184 - t231;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t258 = P::splat(P::lane(t171, 2)) + t235;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t259 = neg_mul_add(t129, mul_add(t219, t219, t216), t236);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t260 = mul_add(P::splat(P::lane(t120, 0)), t241, P::splat(P::lane(t131, 0)));
+    let t261 = t52 * P::splat(P::lane(t75, 2));
+    let t262 = mul_add(P::splat(P::lane(t124, 1)), t241, P::splat(P::lane(t131, 1)));
+    let t263 = t56 * P::splat(P::lane(t75, 0));
+    let t264 = neg_mul_add(P::splat(P::lane(t115, 2)), t241, P::splat(P::lane(t131, 2)));
+    let t265 = t54 * P::splat(P::lane(t75, 1));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t266 = w(1.0) - t106;
+    // second moment of payload and platform-side leg ends
+    let t267 = P::triple([P::lane(t167, 0), P::lane(t194, 1), P::lane(t217 + t218, 2)]);
+    // first moment of payload and platform-side leg ends
+    let t268 = mul_add(t12, t121, t19 * t114);
+    let t269 = mul_add(t9, t121, t18 * t114);
+    let t270 = mul_add(t13, t121, t20 * t114);
+    // second moment of payload and platform-side leg ends
+    let t271 = P::triple([P::lane(t167, 1), P::lane(t194, 2), P::lane(t167, 2)]);
+    // rotation of the platform seen from the base
+    let t272 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t273 = mul_sub(t88, t253, t15 * t126);
+    // rotation of the platform seen from the base
+    let t274 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t275 = mul_add(t213, t258, mul_add(t197, t234, t186 * t220));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t276 = mul_sub(t56, P::splat(P::lane(t75, 1)), t261);
+    let t277 = mul_sub(t54, P::splat(P::lane(t75, 2)), t263);
+    let t278 = mul_sub(t52, P::splat(P::lane(t75, 0)), t265);
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t279 = neg_mul_add(t113, t266, t87);
+    // acceleration per platform coordinate of points of the platform
+    let t280 = mul_add(t126, t255, mul_sub(t252, t254, t232 * t233));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t281 = neg_mul_add(t44, t259, mul_add(t237, t243, t242));
+    let t282 = neg_mul_add(t39, t259, mul_add(t238, t243, t244));
+    let t283 = neg_mul_add(t51, t259, mul_add(t239, t243, t245));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t284 = t260 - mul_sub(P::splat(P::lane(t115, 0)), t240, t246);
+    let t285 = t231 * w(2.0);
+    let t286 = mul_sub(P::splat(P::lane(t120, 1)), t240, t247) + t262;
+    let t287 = mul_add(P::splat(P::lane(t124, 2)), t240, t248) + t264;
+    // constant and copied elements
+    let t288 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t289 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // second moment of payload and platform-side leg ends
+    let t290 = mul_add(P::splat(t249), w(0.5), t267) - t289;
+    // constant and copied elements
+    let t291 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // rotation of the platform seen from the base
+    let t292 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t293 = mul_sub(t88, t274, t17 * t126);
+    // second moment of payload and platform-side leg ends
+    let t294 = mul_add(t250 * t251, P::splat(parameters.payload_mass), t271) - t291;
+    // angular velocity of the platform
+    let t295 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t296 = mul_add(t126, t273, mul_sub(t252, t272, t232 * t253));
+    let t297 = P::triple([P::lane(t255, 2), P::lane(t255, 0), P::lane(t255, 1)]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t298 = neg_mul_add(t148, mul_add(t257, t257, t256), t275);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t299 = w(1.0) - t102;
+    // acceleration per platform coordinate of points of the platform
+    let t300 = neg_mul_add(t295, t297, t280);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t301 = t279 * t281;
+    let t302 = t279 * t282;
+    let t303 = t279 * t283;
+    // second moment of payload and platform-side leg ends
+    let t304 = mul_add(P::splat(parameters.payload_mass), t288 * t288, t290);
+    // first moment of payload and platform-side leg ends
+    let t305 = P::triple([P::lane(t268, 0), P::lane(t269, 0), P::lane(t270, 0)]);
+    let t306 = P::triple([P::lane(t268, 1), P::lane(t269, 1), P::lane(t270, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t307 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t308 = neg_mul_add(t105, t299, t81);
+    // acceleration per platform coordinate of points of the platform
+    let t309 = neg_mul_add(t295, t307, t296);
+    let t310 = mul_add(t126, t293, mul_sub(t252, t292, t232 * t274));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t311 = neg_mul_add(t54, t298, mul_add(t276, t285, t284));
+    let t312 = neg_mul_add(t52, t298, mul_add(t277, t285, t286));
+    let t313 = neg_mul_add(t56, t298, mul_add(t278, t285, t287));
+    // first moments by platform coordinate of the payload's inertia force
+    let t314 = t300 * P::splat(P::lane(t294, 0));
+    // first moment of payload and platform-side leg ends
+    let t315 = P::triple([P::lane(t268, 2), P::lane(t269, 2), P::lane(t270, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t316 = P::triple([P::lane(t293, 2), P::lane(t293, 0), P::lane(t293, 1)]);
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t317 = mul_sub(t33, t303, t37 * t302);
+    let t318 = mul_sub(t37, t301, t32 * t303);
+    let t319 = mul_sub(t32, t302, t33 * t301);
+    // acceleration per platform coordinate of points of the platform
+    let t320 = neg_mul_add(t295, t316, t310);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t321 = t308 * t311;
+    let t322 = t308 * t312;
+    let t323 = t308 * t313;
+    // first moments by platform coordinate of the payload's inertia force
+    let t324 = mul_add(t309, P::splat(P::lane(t304, 0)), t314);
+    // inertia less external wrench that the actuators must balance
+    let t325 = t1 * P::splat(external_wrench[1]);
+    // first moment of payload and platform-side leg ends
+    let t326 = mul_add(P::splat(parameters.payload_mass), t288, t305 + t306 + t315);
+    // first moments by platform coordinate of the payload's inertia force
+    let t327 = mul_add(P::splat(P::lane(t294, 2)), t320, t324);
+    // inertia less external wrench that the actuators must balance
+    let t328 = mul_add(t2, P::splat(external_wrench[0]), t325);
+    // first moments by platform coordinate of the payload's inertia force
+    let t329 = t300 * P::splat(P::lane(t304, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t330 = neg_mul_add(t40, t323, mul_add(t47, t321, t318));
+    let t331 = neg_mul_add(t47, t322, mul_add(t36, t323, t317));
+    let t332 = neg_mul_add(t36, t321, mul_add(t40, t322, t319));
+    // first moments by platform coordinate of the payload's inertia force
+    let t333 = mul_sub(t132, P::splat(P::lane(t326, 0)), t327);
+    let t334 = mul_add(P::splat(P::lane(t294, 0)), t309, t329);
+    // inertia less external wrench that the actuators must balance
+    let t335 = mul_add(t5, P::splat(external_wrench[2]), t328);
+    // first moments by platform coordinate of the payload's inertia force
+    let t336 = t300 * P::splat(P::lane(t294, 1));
+    let t337 = mul_add(t320, P::splat(P::lane(t294, 1)), t334);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t338 = P::triple([P::lane(t331, 0), P::lane(t330, 0), P::lane(t332, 0)]);
+    let t339 = P::triple([P::lane(t331, 1), P::lane(t330, 1), P::lane(t332, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t340 = mul_sub(t132, P::splat(P::lane(t326, 1)), t337);
+    let t341 = mul_add(t309, P::splat(P::lane(t294, 2)), t336);
+    // inertia less external wrench that the actuators must balance
+    let t342 = P::triple([P::lane(t335, 2), P::lane(t335, 0), P::lane(t335, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t343 = P::triple([P::lane(t333, 2), P::lane(t333, 0), P::lane(t333, 1)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t344 = P::triple([P::lane(t331, 2), P::lane(t330, 2), P::lane(t332, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t345 = mul_add(P::splat(parameters.payload_com[0]), t342, t343);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t346 = t338 + t339 + t344;
+    // first moments by platform coordinate of the payload's inertia force
+    let t347 = mul_add(t320, P::splat(P::lane(t304, 2)), t341);
+    // mass of payload and platform-side leg ends
+    let t348 = t114 + t121;
+    // first moments by platform coordinate of the payload's inertia force
+    let t349 = mul_sub(t132, P::splat(P::lane(t326, 2)), t347);
+    let t350 = P::triple([P::lane(t340, 2), P::lane(t340, 0), P::lane(t340, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t351 = mul_add(t279, t281, t321);
+    let t352 = mul_add(t279, t282, t322);
+    let t353 = mul_add(t279, t283, t323);
+    // inertia less external wrench that the actuators must balance
+    let t354 = mul_add(P::splat(parameters.payload_com[1]), t342, t350);
+    let t355 = P::triple([P::lane(t345, 2), P::lane(t345, 0), P::lane(t345, 1)]);
+    let t356 = neg_mul_add(t272, t355, mul_add(t253, t345, t346));
+    // first moments by platform coordinate of the payload's inertia force
+    let t357 = P::triple([P::lane(t349, 2), P::lane(t349, 0), P::lane(t349, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t358 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
+    let t359 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t360 = mul_add(P::splat(parameters.payload_com[2]), t342, t357);
+    let t361 = P::triple([P::lane(t354, 2), P::lane(t354, 0), P::lane(t354, 1)]);
+    // mass of payload and platform-side leg ends
+    let t362 = P::lane(t348, 2) + (P::lane(t348, 1) + P::lane(t348, 0));
+    // inertia less external wrench that the actuators must balance
+    let t363 = neg_mul_add(t254, t361, mul_add(t233, t354, t356));
+    // inertia force less weight, without the actuators' own shares
+    let t364 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
+    // mass of payload and platform-side leg ends
+    let t365 = parameters.payload_mass + t362;
+    // inertia force less weight, without the actuators' own shares
+    let t366 = mul_add(t132, P::splat(t365), t358 + t359 + t364);
+    // inertia less external wrench that the actuators must balance
+    let t367 = P::triple([P::lane(t360, 2), P::lane(t360, 0), P::lane(t360, 1)]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t368 = mul_sub(t33, t187, t37 * t166);
+    // inertia less external wrench that the actuators must balance
+    let t369 = neg_mul_add(t292, t367, mul_add(t274, t360, t363));
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t370 = mul_sub(t36, t213, t47 * t186);
+    // inertia force less weight, without the actuators' own shares
+    let t371 = mul_sub(t309, P::splat(P::lane(t326, 0)), t366);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t372 = mul_sub(t37, t173, t32 * t187);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t373 = mul_sub(t47, t197, t40 * t213);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t374 = mul_sub(t32, t166, t33 * t173);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t375 = mul_sub(t40, t186, t36 * t197);
+    // inertia less external wrench that the actuators must balance
+    let t376 = mul_add(t2, P::splat(external_wrench[3]), t369);
+    // inertia force less weight, without the actuators' own shares
+    let t377 = mul_add(t300, P::splat(P::lane(t326, 1)), t371);
+    // inertia less external wrench that the actuators must balance
+    let t378 = mul_add(t1, P::splat(external_wrench[4]), t376);
+    // inertia force less weight, without the actuators' own shares
+    let t379 = mul_add(t320, P::splat(P::lane(t326, 2)), t377);
+    // inertia less external wrench that the actuators must balance
+    let t380 = mul_add(t5, P::splat(external_wrench[5]), t378);
+    let t381 = t379 - t335;
+    let t382 = -P::lane(t380, 0);
+    let t383 = -P::lane(t380, 1);
+    let t384 = -P::lane(t380, 2);
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_general(
+        &[
+            [P::lane(t173, 0), P::lane(t173, 1), P::lane(t173, 2), P::lane(t197, 0), P::lane(t197, 1), P::lane(t197, 2)],
+            [P::lane(t166, 0), P::lane(t166, 1), P::lane(t166, 2), P::lane(t186, 0), P::lane(t186, 1), P::lane(t186, 2)],
+            [P::lane(t187, 0), P::lane(t187, 1), P::lane(t187, 2), P::lane(t213, 0), P::lane(t213, 1), P::lane(t213, 2)],
+            [P::lane(t368, 0), P::lane(t368, 1), P::lane(t368, 2), P::lane(t370, 0), P::lane(t370, 1), P::lane(t370, 2)],
+            [P::lane(t372, 0), P::lane(t372, 1), P::lane(t372, 2), P::lane(t373, 0), P::lane(t373, 1), P::lane(t373, 2)],
+            [P::lane(t374, 0), P::lane(t374, 1), P::lane(t374, 2), P::lane(t375, 0), P::lane(t375, 1), P::lane(t375, 2)],
+        ],
+        &[P::lane(t381, 0), P::lane(t381, 1), P::lane(t381, 2), t382, t383, t384],
+    );
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t385 = t9 * P::splat(P::lane(t300, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t386 = t18 * P::splat(P::lane(t300, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t387 = t9 * P::splat(P::lane(t300, 0));
+    let t388 = neg_mul_add(t13, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t389 = t18 * P::splat(P::lane(t300, 0));
+    let t390 = neg_mul_add(t20, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t391 = neg_mul_add(t13, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t392 = neg_mul_add(t20, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t393 = t9 * P::splat(P::lane(t300, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t394 = t18 * P::splat(P::lane(t300, 2));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t395 = t391 - mul_add(t12, P::splat(P::lane(t309, 0)), t387);
+    let t396 = neg_mul_add(t13, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    let t397 = t39 * (t388 - mul_add(t12, P::splat(P::lane(t309, 1)), t385));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t398 = t392 - mul_add(t19, P::splat(P::lane(t309, 0)), t389);
+    let t399 = t52 * (t390 - mul_add(t19, P::splat(P::lane(t309, 1)), t386));
+    let t400 = neg_mul_add(t20, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    // constant and copied elements
+    let t401 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    let t402 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t403 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t404 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t405 = t396 - mul_add(t12, P::splat(P::lane(t309, 2)), t393);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t406 = t400 - mul_add(t19, P::splat(P::lane(t309, 2)), t394);
+    // constant and copied elements
+    let t407 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t408 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t409 = mul_add(t51, t405, mul_add(t44, t395, t397));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t410 = mul_add(t56, t406, mul_add(t54, t398, t399));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t411 = mul_add(t182 - t401, t407, t202 * t402);
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t412 = mul_add(t208 - t403, t408, t231 * t404);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t413 = mul_add(t51, t283, mul_add(t44, t281, t39 * t282));
+    let t414 = mul_add(t239, t239, mul_add(t237, t237, t238 * t238));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t415 = mul_add(t56, t313, mul_add(t54, t311, t52 * t312));
+    let t416 = mul_add(t278, t278, mul_add(t276, t276, t277 * t277));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t417 = mul_add(t266, t107 * t266, t87);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t418 = mul_add(t299, t103 * t299, t81);
+    // constant and copied elements
+    let t419 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    let t420 =
+        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t421 = mul_add(t414, t419, t413);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t422 = mul_add(t416, t420, t415);
+    // constant and copied elements
+    let t423 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+    let t424 =
+        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
+    // legs 1, 2, 3: actuator forces F
+    let t425 = mul_add(t413, t417, mul_add(t279, t409, t411));
+    // legs 4, 5, 6: actuator forces F
+    let t426 = mul_add(t415, t418, mul_add(t308, t410, t412));
+    // force along the actuator that balances the remaining wrench
+    let t427 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
+    // legs 1, 2, 3: actuator forces F
+    let t428 = mul_add(t421, t423, t425) + t427;
+    // force along the actuator that balances the remaining wrench
+    let t429 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
+    // legs 4, 5, 6: actuator forces F
+    let t430 = mul_add(t422, t424, t426) + t429;
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t428, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t428, 1);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t428, 2);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t430, 0);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t430, 1);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t430, 2);
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn actuator_geometry_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    rod_alignment: &mut [P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    let t5 = t1 * P::splat(platform_rotation[1][2]);
+    // constant and copied elements
+    let t6 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    let t9 = mul_add(t2, P::splat(platform_rotation[0][2]), t5);
+    // platform origin seen from the base
+    let t10 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t11 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    let t12 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t6, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t6, P::splat(platform_rotation[2][0]), t8);
+    let t16 = mul_add(t6, P::splat(platform_rotation[2][2]), t9);
+    // platform origin seen from the base
+    let t17 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t6, P::splat(platform_position[2] - base_position[2]), t17);
+    // constant and copied elements
+    let t23 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t24 = t11 * P::splat(P::lane(t14, 0));
+    let t25 = t11 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    let t27 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = mul_add(t19, P::splat(P::lane(t15, 1)), t26);
+    // constant and copied elements
+    let t30 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    let t31 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t32 = mul_add(t13, P::splat(P::lane(t15, 0)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 0)), t27);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t34 = t11 * P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t35 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: platform joint from the base point
+    let t36 = mul_sub(t18, P::splat(P::lane(t16, 1)), t21) + t28;
+    // legs 4, 5, 6: platform joint from the base point
+    let t37 = mul_sub(t20, P::splat(P::lane(t16, 1)), t23) + t29;
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    let t39 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t40 = mul_add(t13, P::splat(P::lane(t15, 2)), t34);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + mul_sub(t18, P::splat(P::lane(t16, 0)), t30);
+    // legs 4, 5, 6: platform joint from the base point
+    let t43 = t33 + mul_sub(t20, P::splat(P::lane(t16, 0)), t31);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t36;
+    // legs 4, 5, 6: platform joint from the base point
+    let t45 = P::splat(P::lane(t22, 1)) + t37;
+    // constant and copied elements
+    let t46 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
+    let t47 =
+        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t48 = t42 + P::splat(P::lane(t22, 0));
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = t43 + P::splat(P::lane(t22, 0));
+    // legs 1, 2, 3: platform joint from the base point
+    let t50 = t40 + mul_sub(t18, P::splat(P::lane(t16, 2)), t38);
+    // legs 4, 5, 6: platform joint from the base point
+    let t51 = t41 + mul_sub(t20, P::splat(P::lane(t16, 2)), t39);
+    // constant and copied elements
+    let t52 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t53 =
+        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 2)) + t50;
+    // legs 4, 5, 6: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t51;
+    // constant and copied elements
+    let t56 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+    let t57 =
+        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
+    let t58 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+    let t59 =
+        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t60 = mul_add(t54, t56, mul_add(t48, t52, t44 * t46));
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t61 = mul_add(t55, t57, mul_add(t49, t53, t45 * t47));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t62 = t58 * t58;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t63 = t59 * t59;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t64 = P::splat(platform_rotation[0][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t65 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t66 = P::splat(platform_rotation[1][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t67 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t68 = neg_mul_add(t46, t60, t44);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t47, t61, t45);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t70 = neg_mul_add(t52, t60, t48);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t53, t61, t49);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t72 = neg_mul_add(t56, t60, t54);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t73 = neg_mul_add(t57, t61, t55);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t74 = P::splat(platform_rotation[2][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t75 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t76 = mul_add(P::splat(platform_rotation[0][0]), t13, t64);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t77 = mul_add(P::splat(platform_rotation[0][0]), t19, t65);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t78 = mul_add(t70, t70, t68 * t68);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t79 = mul_add(t71, t71, t69 * t69);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t80 = mul_add(P::splat(platform_rotation[1][0]), t13, t66);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t81 = mul_add(P::splat(platform_rotation[1][0]), t19, t67);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t82 = mul_add(P::splat(platform_rotation[2][0]), t13, t74);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t83 = mul_add(P::splat(platform_rotation[2][0]), t19, t75);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t84 = mul_add(P::splat(platform_rotation[0][2]), t18, t76);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t85 = mul_add(P::splat(platform_rotation[0][2]), t20, t77);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t86 = neg_mul_add(t72, t72, t62) - t78;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t87 = neg_mul_add(t73, t73, t63) - t79;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t88 = mul_add(P::splat(platform_rotation[1][2]), t18, t80);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t89 = mul_add(P::splat(platform_rotation[1][2]), t20, t81);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t90 = mul_add(P::splat(platform_rotation[2][2]), t18, t82);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t91 = mul_add(P::splat(platform_rotation[2][2]), t20, t83);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t92 = sqrt(t86);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t93 = sqrt(t87);
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t94 = t86 / t62;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t95 = t87 / t63;
+    // legs 1, 2, 3: reciprocal of that extent
+    let t96 = w(1.0) / t92;
+    // legs 4, 5, 6: reciprocal of that extent
+    let t97 = w(1.0) / t93;
+    // legs 1, 2, 3: actuator length d
+    let t98 = t60 - t92;
+    // legs 4, 5, 6: actuator length d
+    let t99 = t61 - t93;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t100 = mul_add(t68, t96, t46);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t101 = mul_add(t69, t97, t47);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t102 = mul_add(t70, t96, t52);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t103 = mul_add(t71, t97, t53);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t104 = mul_add(t72, t96, t56);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t105 = mul_add(t73, t97, t57);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t106 = P::splat(base_rotation[0][1]) * t100;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t107 = P::splat(base_rotation[0][1]) * t101;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t108 = P::splat(base_rotation[1][1]) * t100;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t109 = P::splat(base_rotation[1][1]) * t101;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t110 = P::splat(base_rotation[2][1]) * t100;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t111 = P::splat(base_rotation[2][1]) * t101;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t112 = mul_add(P::splat(base_rotation[0][0]), t102, t106);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t113 = mul_add(P::splat(base_rotation[0][0]), t103, t107);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t114 = mul_add(P::splat(base_rotation[1][0]), t102, t108);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t115 = mul_add(P::splat(base_rotation[1][0]), t103, t109);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t116 = mul_add(P::splat(base_rotation[2][0]), t102, t110);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t117 = mul_add(P::splat(base_rotation[2][0]), t103, t111);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t118 = mul_add(P::splat(base_rotation[0][2]), t104, t112);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t119 = mul_add(P::splat(base_rotation[0][2]), t105, t113);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t120 = mul_add(P::splat(base_rotation[1][2]), t104, t114);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t121 = mul_add(P::splat(base_rotation[1][2]), t105, t115);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t122 = mul_add(P::splat(base_rotation[2][2]), t104, t116);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t123 = mul_add(P::splat(base_rotation[2][2]), t105, t117);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t124 = mul_sub(t84, t120, t88 * t118);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t125 = mul_sub(t85, t121, t89 * t119);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t126 = mul_sub(t88, t122, t90 * t120);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t127 = mul_sub(t89, t123, t91 * t121);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t128 = mul_sub(t90, t118, t84 * t122);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t129 = mul_sub(t91, t119, t85 * t123);
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = P::lane(t94, 0);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = P::lane(t94, 1);
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = P::lane(t94, 2);
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = P::lane(t95, 0);
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = P::lane(t95, 1);
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = P::lane(t95, 2);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t98, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t98, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t98, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t99, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t99, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t99, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t118, 0);
+    jacobian_dp[0][1] = P::lane(t120, 0);
+    jacobian_dp[0][2] = P::lane(t122, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t126, 0);
+    jacobian_dp[0][4] = P::lane(t128, 0);
+    jacobian_dp[0][5] = P::lane(t124, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t118, 1);
+    jacobian_dp[1][1] = P::lane(t120, 1);
+    jacobian_dp[1][2] = P::lane(t122, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t126, 1);
+    jacobian_dp[1][4] = P::lane(t128, 1);
+    jacobian_dp[1][5] = P::lane(t124, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t118, 2);
+    jacobian_dp[2][1] = P::lane(t120, 2);
+    jacobian_dp[2][2] = P::lane(t122, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t126, 2);
+    jacobian_dp[2][4] = P::lane(t128, 2);
+    jacobian_dp[2][5] = P::lane(t124, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t119, 0);
+    jacobian_dp[3][1] = P::lane(t121, 0);
+    jacobian_dp[3][2] = P::lane(t123, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t127, 0);
+    jacobian_dp[3][4] = P::lane(t129, 0);
+    jacobian_dp[3][5] = P::lane(t125, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t119, 1);
+    jacobian_dp[4][1] = P::lane(t121, 1);
+    jacobian_dp[4][2] = P::lane(t123, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t127, 1);
+    jacobian_dp[4][4] = P::lane(t129, 1);
+    jacobian_dp[4][5] = P::lane(t125, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t119, 2);
+    jacobian_dp[5][1] = P::lane(t121, 2);
+    jacobian_dp[5][2] = P::lane(t123, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t127, 2);
+    jacobian_dp[5][4] = P::lane(t129, 2);
+    jacobian_dp[5][5] = P::lane(t125, 2);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    let t39 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t44 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t45 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    let t46 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
+    // legs 4, 5, 6: platform joint from the base point
+    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
+    // legs 1, 2, 3: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+    // constant and copied elements
+    let t50 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t51 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+    let t52 =
+        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+    // constant and copied elements
+    let t54 =
+        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+    let t55 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    let t56 =
+        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
+    // legs 4, 5, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+    // constant and copied elements
+    let t59 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+    // angular velocity of the base
+    let t60 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t61 = t59 * t59;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t62 = neg_mul_add(t39, t57, t43);
+    let t63 = neg_mul_add(t44, t57, t42);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t65 = neg_mul_add(t51, t57, t49);
+    // angular velocity of the base
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    // velocity of the platform origin relative to the base
+    let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // constant and copied elements
+    let t68 =
+        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+    // angular velocity of the platform
+    let t69 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t70 = t68 * t68;
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t52, t64, t48);
+    let t72 = neg_mul_add(t54, t64, t53);
+    let t73 = neg_mul_add(t56, t64, t58);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t74 = mul_add(t63, t63, t62 * t62);
+    // angular velocity of the base
+    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    // velocity of the platform origin relative to the base
+    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    // angular velocity of the platform
+    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    // angular acceleration of the base
+    let t78 = t1 * P::splat(base_acceleration[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t79 = mul_add(t72, t72, t71 * t71);
+    // velocity of the platform origin relative to the base
+    let t80 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t81 = sqrt(neg_mul_add(t65, t65, t61) - t74);
+    // angular acceleration of the base
+    let t82 = mul_add(t2, P::splat(base_acceleration[3]), t78);
+    // angular velocity of the platform
+    let t83 = mul_add(t5, P::splat(platform_velocity[5]), t77);
+    // platform origin seen from the base
+    let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t86 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t87 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
+    // angular acceleration of the base
+    let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t89 = sqrt(neg_mul_add(t73, t73, t70) - t79);
+    // constant and copied elements
+    let t90 =
+        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+    // angular velocity of the platform relative to the base
+    let t91 = t75 - t83;
+    // platform origin seen from the base
+    let t92 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t94 = t86 * t87;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t95 = t90 / t70;
+    // velocity of the platform origin relative to the base
+    let t96 = mul_add(t92, t93, neg_mul_add(t84, t85, t80));
+    // angular velocity of the base
+    let t97 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    // constant and copied elements
+    let t98 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t99 = t98 / t61;
+    // acceleration of the base origin less gravity
+    let t100 = base_acceleration[0] - parameters.gravity[0];
+    let t101 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t102 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration of the platform origin less gravity
+    let t103 = t1 * P::splat(parameters.gravity[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t104 = mul_add(t102, t102, t97 * t97);
+    // angular acceleration of the base
+    let t105 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t106 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    // angular velocity of the platform relative to the base
+    let t107 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
+    // angular acceleration of the base
+    let t108 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t109 = t105 + t106;
+    // acceleration of the platform origin less gravity
+    let t110 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t111 = neg_mul_add(t32, P::splat(P::lane(t91, 2)), P::splat(P::lane(t96, 1)));
+    // acceleration of the base origin less gravity
+    let t112 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t113 = mul_sub(t86, t87, t108);
+    // constant and copied elements
+    let t114 =
+        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
+    let t115 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    // angular velocity of the platform
+    let t116 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t117 = t114 * t115;
+    // acceleration of the platform origin relative to the base, less w x v
+    let t118 = t85 + t116;
+    // angular velocity of the platform relative to the base
+    let t119 = P::triple([P::lane(t91, 1), P::lane(t91, 2), P::lane(t91, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t120 = w(1.0) / t81;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t121 = neg_mul_add(t37, P::splat(P::lane(t91, 1)), P::splat(P::lane(t96, 0)));
+    // acceleration of the base origin less gravity
+    let t122 = mul_add(t5, P::splat(t112), mul_add(t2, P::splat(t100), t101));
+    // acceleration of the platform origin less gravity
+    let t123 = mul_add(t5, P::splat(parameters.gravity[2]), t110);
+    // rate of that angular velocity
+    let t124 = mul_add(t93, t119, neg_mul_add(t85, t107, t88));
+    // constant and copied elements
+    let t125 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+    let t126 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t127 = mul_add(t37, P::splat(P::lane(t91, 0)), t111);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t128 = t125 * t126;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t129 = mul_add(t114, t117, t95);
+    // acceleration per base coordinate of points that move with the base
+    let t130 = P::triple([P::lane(t113, 0), -P::lane(t104, 1), P::lane(t109, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t131 = mul_add(t33, P::splat(P::lane(t91, 2)), t121);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t40, P::splat(P::lane(t91, 2)), P::splat(P::lane(t96, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t133 = neg_mul_add(t33, P::splat(P::lane(t91, 0)), P::splat(P::lane(t96, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t134 = P::splat(P::lane(t22, 1)) * t130;
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t135 = mul_add(t125, t128, t99);
+    // acceleration per base coordinate of points that move with the base
+    let t136 = P::triple([-P::lane(t104, 0), P::lane(t109, 1), P::lane(t113, 2)]);
+    let t137 = P::triple([P::lane(t109, 0), P::lane(t113, 1), -P::lane(t104, 2)]);
+    // velocity of the platform origin relative to the base
+    let t138 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t139 = P::triple([P::lane(t118, 1), P::lane(t118, 2), P::lane(t118, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t140 = t37 * P::splat(P::lane(t124, 0));
+    // legs 4, 5, 6: reciprocal of that extent
+    let t141 = w(1.0) / t89;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t142 = neg_mul_add(t47, P::splat(P::lane(t91, 1)), P::splat(P::lane(t96, 0)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t143 = mul_add(P::splat(P::lane(t22, 2)), t137, t122 + t123);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t144 = mul_add(t47, P::splat(P::lane(t91, 0)), t132);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t145 = mul_add(t32, P::splat(P::lane(t91, 1)), t133);
+    // second moment of payload and platform-side leg ends
+    let t146 = mul_add(t135, t12 * t12, t129 * (t19 * t19));
+    let t147 = mul_add(t135, t9 * t12, t129 * (t18 * t19));
+    let t148 = mul_add(t135, t12 * t13, t129 * (t19 * t20));
+    // velocity of the platform origin relative to the base
+    let t149 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t150 = t33 * P::splat(P::lane(t124, 2));
+    let t151 = mul_sub(t32, P::splat(P::lane(t124, 2)), t140);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t152 = mul_add(t36, P::splat(P::lane(t91, 2)), t142);
+    let t153 = neg_mul_add(t36, P::splat(P::lane(t91, 0)), P::splat(P::lane(t96, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t154 = mul_add(P::splat(P::lane(t22, 0)), t136, t134) + t143;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t155 = mul_add(t51, t145, mul_add(t44, t131, t39 * t127));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t156 = mul_sub(t37, P::splat(P::lane(t124, 1)), t150);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t157 = mul_add(t62, t120, t39);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t158 = mul_add(P::splat(P::lane(t91, 2)), t131, t151);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t159 = t47 * P::splat(P::lane(t124, 0));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t160 = t32 * P::splat(P::lane(t124, 1));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t161 = w(1.0) - t125;
+    // acceleration of the platform origin relative to the base, less w x v
+    let t162 = mul_sub(t118, t149, t138 * t139) + t154;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t163 = mul_add(t40, P::splat(P::lane(t91, 1)), t153);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t164 = mul_add(t63, t120, t44);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t165 = P::splat(base_rotation[0][1]) * t39;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t166 = neg_mul_add(t39, t155, t127);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t167 = mul_add(P::splat(P::lane(t91, 1)), t145, t156);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t168 = t36 * P::splat(P::lane(t124, 2));
+    let t169 = mul_sub(t40, P::splat(P::lane(t124, 2)), t159);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t170 = mul_sub(t33, P::splat(P::lane(t124, 0)), t160);
+    // second moment of payload and platform-side leg ends
+    let t171 = mul_add(t135, t9 * t9, t129 * (t18 * t18));
+    let t172 = mul_add(t135, t9 * t13, t129 * (t18 * t20));
+    let t173 = P::triple([P::lane(t146, 0), P::lane(t147, 0), P::lane(t148, 0)]);
+    let t174 = P::triple([P::lane(t146, 1), P::lane(t147, 1), P::lane(t148, 1)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t175 = P::splat(base_rotation[1][1]) * t39;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t176 = neg_mul_add(P::splat(P::lane(t91, 0)), t145, t158);
+    // legs 1, 2, 3: actuator length d
+    let t177 = t57 - t81;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t178 = P::splat(base_rotation[2][1]) * t39;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t179 = P::splat(base_rotation[0][1]) * t157;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t180 = mul_add(P::splat(base_rotation[0][0]), t44, t165);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t181 = neg_mul_add(t44, t155, t131);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t182 = mul_add(t56, t163, mul_add(t54, t152, t52 * t144));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t183 = mul_sub(t47, P::splat(P::lane(t124, 1)), t168);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t184 = mul_add(t71, t141, t52);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t185 = mul_add(t65, t120, t51);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t186 = P::splat(base_rotation[1][1]) * t157;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t187 = mul_add(t161, t126 * t161, t99);
+    // second moment of payload and platform-side leg ends
+    let t188 = P::triple([P::lane(t146, 2), P::lane(t147, 2), P::lane(t148, 2)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t189 = mul_add(P::splat(base_rotation[1][0]), t44, t175);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t190 = neg_mul_add(P::splat(P::lane(t91, 2)), t127, t167);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t191 = mul_add(P::splat(P::lane(t91, 2)), t152, t169);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t192 = mul_add(P::splat(P::lane(t91, 0)), t127, t170);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t193 = t40 * P::splat(P::lane(t124, 1));
+    // legs 1, 2, 3: gradient of the actuator length
+    let t194 = P::splat(base_rotation[2][1]) * t157;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t195 = w(1.0) - t114;
+    // second moment of payload and platform-side leg ends
+    let t196 = t173 + t174 + t188;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t197 = mul_add(P::splat(base_rotation[2][0]), t44, t178);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t198 = P::splat(P::lane(t162, 1)) + t176;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t199 = mul_add(t39, t177, t21);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t200 = mul_add(P::splat(base_rotation[0][0]), t164, t179);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t201 = mul_add(t72, t141, t54);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t202 = mul_add(P::splat(base_rotation[1][0]), t164, t186);
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t203 = neg_mul_add(t128, t161, t99);
+    // constant and copied elements
+    let t204 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t205 = P::splat(base_rotation[1][1]) * t52;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t206 = neg_mul_add(t52, t182, t144);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t207 = neg_mul_add(t51, t155, t145);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t208 = mul_add(P::splat(P::lane(t91, 1)), t163, t183);
+    let t209 = mul_sub(t36, P::splat(P::lane(t124, 0)), t193);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t210 = mul_add(P::splat(base_rotation[2][0]), t164, t194);
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t211 = t187 + t204;
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t212 = mul_add(t145, t185, mul_add(t131, t164, t127 * t157));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t213 = t190 + P::splat(P::lane(t162, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t214 = neg_mul_add(P::splat(P::lane(t91, 0)), t163, t191);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t215 = neg_mul_add(P::splat(P::lane(t91, 1)), t131, t192);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t216 = mul_add(t44, t177, t38);
+    let t217 = mul_add(t51, t177, t46);
+    // legs 4, 5, 6: actuator length d
+    let t218 = t64 - t89;
+    // second moment of payload and platform-side leg ends
+    let t219 = mul_add(t135, t13 * t13, t129 * (t20 * t20));
+    let t220 = P::lane(t172, 1) + P::lane(t172, 0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t221 = P::splat(P::lane(t113, 0)) * t199;
+    let t222 = P::splat(P::lane(t104, 1)) * t199;
+    let t223 = P::splat(P::lane(t109, 2)) * t199;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t224 = mul_add(P::splat(base_rotation[0][2]), t185, t200);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t225 = P::splat(base_rotation[1][1]) * t184;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t226 = P::splat(base_rotation[0][1]) * t52;
+    let t227 = mul_add(P::splat(base_rotation[1][0]), t54, t205);
+    let t228 = P::splat(base_rotation[2][1]) * t52;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t229 = neg_mul_add(t54, t182, t152);
+    // rotation of the platform seen from the base
+    let t230 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t231 = mul_add(t73, t141, t56);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t232 = mul_add(P::splat(base_rotation[1][2]), t185, t202);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t233 = mul_add(t195, t115 * t195, t95);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t234 = t211 * w(0.5);
+    let t235 = t203 * mul_add(P::splat(base_rotation[0][2]), t51, t180);
+    // acceleration per platform coordinate of points of the platform
+    let t236 = mul_sub(t83, t230, t14 * t116);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t237 = neg_mul_add(P::splat(P::lane(t91, 2)), t144, t208);
+    let t238 = mul_add(P::splat(P::lane(t91, 0)), t144, t209);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t239 = mul_add(t207, t207, mul_add(t181, t181, t166 * t166));
+    // legs 1, 2, 3: gradient of the actuator length
+    let t240 = mul_add(P::splat(base_rotation[2][2]), t185, t210);
+    // second moment of payload and platform-side leg ends
+    let t241 = P::triple([P::lane(t196, 1), P::lane(t171, 2), P::lane(t172, 2)]);
+    let t242 = P::triple([c(0.0), P::lane(t171, 1) + P::lane(t171, 0), t220]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t243 = t203 * mul_add(P::splat(base_rotation[1][2]), t51, t189);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t244 = t155 - t212;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t245 = P::splat(P::lane(t162, 1)) + t214;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t246 = P::splat(P::lane(t162, 2)) + t215;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t247 = mul_add(P::splat(P::lane(t109, 0)), t217, P::splat(P::lane(t122, 0)));
+    let t248 = t39 * P::splat(P::lane(t75, 2));
+    let t249 = mul_add(P::splat(P::lane(t113, 1)), t217, P::splat(P::lane(t122, 1)));
+    let t250 = t51 * P::splat(P::lane(t75, 0));
+    let t251 = neg_mul_add(P::splat(P::lane(t104, 2)), t217, P::splat(P::lane(t122, 2)));
+    let t252 = t44 * P::splat(P::lane(t75, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t253 = mul_add(t52, t218, t45);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t254 = P::splat(base_rotation[0][1]) * t184;
+    let t255 = mul_add(P::splat(base_rotation[1][0]), t201, t225);
+    let t256 = P::splat(base_rotation[2][1]) * t184;
+    // second moment of payload and platform-side leg ends
+    let t257 = t241 + t242;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t258 = mul_add(P::splat(base_rotation[0][0]), t54, t226);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t259 = t203 * mul_add(P::splat(base_rotation[2][2]), t51, t197);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t260 = mul_add(P::splat(base_rotation[2][0]), t54, t228);
+    // rotation of the platform seen from the base
+    let t261 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t262 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t263 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t264 = neg_mul_add(t117, t195, t95);
+    // constant and copied elements
+    let t265 =
+        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t266 = mul_sub(t224, t234, t235);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t267 = neg_mul_add(t56, t182, t163);
+    // acceleration per platform coordinate of points of the platform
+    let t268 = mul_sub(t83, t261, t15 * t116);
+    let t269 = mul_sub(t83, t262, t17 * t116);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t270 = P::splat(platform_rotation[0][1]) * t9;
+    let t271 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t272 = t233 + t265;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t273 = mul_sub(t232, t234, t243);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t274 = mul_add(t163, t231, mul_add(t152, t201, t144 * t184));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t275 = P::splat(P::lane(t162, 0)) + t237;
+    let t276 = neg_mul_add(P::splat(P::lane(t91, 1)), t152, t238);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t277 = mul_add(t185, t246, mul_add(t164, t213, t157 * t198));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t278 = mul_sub(t51, P::splat(P::lane(t75, 1)), t248);
+    let t279 = mul_sub(t44, P::splat(P::lane(t75, 2)), t250);
+    let t280 = mul_sub(t39, P::splat(P::lane(t75, 0)), t252);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t281 = mul_add(t54, t218, t50);
+    let t282 = mul_add(t56, t218, t55);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t283 = mul_add(P::splat(base_rotation[0][0]), t201, t254);
+    let t284 = mul_add(P::splat(base_rotation[2][0]), t201, t256);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t285 = mul_sub(t234, t240, t259);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t286 = t247 - mul_sub(P::splat(P::lane(t104, 0)), t216, t221);
+    let t287 = t212 * w(2.0);
+    let t288 = mul_sub(P::splat(P::lane(t109, 1)), t216, t222) + t249;
+    let t289 = mul_add(P::splat(P::lane(t113, 2)), t216, t223) + t251;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t290 = P::splat(P::lane(t113, 0)) * t253;
+    let t291 = P::splat(P::lane(t104, 1)) * t253;
+    let t292 = P::splat(P::lane(t109, 2)) * t253;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t293 = mul_add(P::splat(platform_rotation[2][0]), t12, t263);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t294 = mul_add(P::splat(base_rotation[1][2]), t231, t255);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t295 = mul_add(P::splat(platform_rotation[0][0]), t12, t270);
+    let t296 = mul_add(P::splat(platform_rotation[1][0]), t12, t271);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t297 = w(0.5) * t272;
+    let t298 = t264 * mul_add(P::splat(base_rotation[1][2]), t56, t227);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t299 = mul_add(t267, t267, mul_add(t229, t229, t206 * t206));
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t300 = t182 - t274;
+    // angular velocity of the platform
+    let t301 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t302 = P::triple([P::lane(t236, 2), P::lane(t236, 0), P::lane(t236, 1)]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t303 = P::splat(P::lane(t162, 2)) + t276;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t304 = neg_mul_add(t120, mul_add(t244, t244, t239), t277);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t305 = mul_add(P::splat(P::lane(t109, 0)), t282, P::splat(P::lane(t122, 0)));
+    let t306 = t52 * P::splat(P::lane(t75, 2));
+    let t307 = mul_add(P::splat(P::lane(t113, 1)), t282, P::splat(P::lane(t122, 1)));
+    let t308 = t56 * P::splat(P::lane(t75, 0));
+    let t309 = neg_mul_add(P::splat(P::lane(t104, 2)), t282, P::splat(P::lane(t122, 2)));
+    let t310 = t54 * P::splat(P::lane(t75, 1));
+    // legs 4, 5, 6: gradient of the actuator length
+    let t311 = mul_add(P::splat(base_rotation[0][2]), t231, t283);
+    let t312 = mul_add(P::splat(base_rotation[2][2]), t231, t284);
+    // second moment of payload and platform-side leg ends
+    let t313 = P::triple([P::lane(t196, 2), P::lane(t257, 2), P::lane(t219, 2)]);
+    let t314 = P::triple([c(0.0), c(0.0), P::lane(t219, 1) + P::lane(t219, 0)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t315 = t240 * t285;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t316 = P::splat(platform_rotation[0][1]) * t18;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t317 = mul_add(P::splat(platform_rotation[2][2]), t13, t293);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t318 = t264 * mul_add(P::splat(base_rotation[0][2]), t56, t258);
+    let t319 = mul_sub(t294, t297, t298);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t320 = mul_add(t224, t285, t240 * t266);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t321 = t264 * mul_add(P::splat(base_rotation[2][2]), t56, t260);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t322 = mul_add(P::splat(platform_rotation[0][2]), t13, t295);
+    let t323 = mul_add(P::splat(platform_rotation[1][2]), t13, t296);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t324 = P::splat(platform_rotation[1][1]) * t18;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t325 = mul_add(t232, t285, t240 * t273);
+    // acceleration per platform coordinate of points of the platform
+    let t326 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
+    let t327 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t328 = mul_add(t231, t303, mul_add(t201, t275, t184 * t245));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t329 = mul_sub(t56, P::splat(P::lane(t75, 1)), t306);
+    let t330 = mul_sub(t54, P::splat(P::lane(t75, 2)), t308);
+    let t331 = mul_sub(t52, P::splat(P::lane(t75, 0)), t310);
+    // second moment of payload and platform-side leg ends
+    let t332 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t333 = t232 * t273;
+    let t334 = w(2.0) * t315;
+    // acceleration per platform coordinate of points of the platform
+    let t335 = mul_sub(t116, t236, t301 * t302);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t336 = neg_mul_add(t44, t304, mul_add(t278, t287, t286));
+    let t337 = neg_mul_add(t39, t304, mul_add(t279, t287, t288));
+    let t338 = neg_mul_add(t51, t304, mul_add(t280, t287, t289));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t339 = t305 - mul_sub(P::splat(P::lane(t104, 0)), t281, t290);
+    let t340 = t274 * w(2.0);
+    let t341 = mul_sub(P::splat(P::lane(t109, 1)), t281, t291) + t307;
+    let t342 = mul_add(P::splat(P::lane(t113, 2)), t281, t292) + t309;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t343 = mul_add(P::splat(platform_rotation[0][0]), t19, t316);
+    let t344 = P::splat(platform_rotation[2][1]) * t18;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t345 = mul_sub(t297, t311, t318);
+    let t346 = mul_sub(t297, t312, t321);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t347 = mul_add(P::splat(platform_rotation[1][0]), t19, t324);
+    // second moment of payload and platform-side leg ends
+    let t348 = t332 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t349 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t350 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t351 = w(2.0) * t333;
+    // mass matrix of the legs
+    let t352 = t322 * t325;
+    // acceleration per platform coordinate of points of the platform
+    let t353 = mul_sub(t116, t268, t301 * t326);
+    let t354 = mul_sub(t116, t269, t301 * t327);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t355 = neg_mul_add(t141, mul_add(t300, t300, t299), t328);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t356 = mul_add(P::splat(platform_rotation[2][0]), t19, t344);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t357 = mul_add(t224, t273, t232 * t266);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t358 = t203 * t336;
+    let t359 = t203 * t337;
+    let t360 = t203 * t338;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t361 = mul_add(P::splat(platform_rotation[0][2]), t20, t343);
+    // second moment of payload and platform-side leg ends
+    let t362 = P::triple([P::lane(t196, 0), P::lane(t257, 1), P::lane(t313 + t314, 2)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t363 = t224 * t266;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t364 = mul_add(t294, t346, t312 * t319);
+    // mass matrix of the legs
+    let t365 = mul_sub(t322, t334, t317 * t320);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t366 = mul_add(P::splat(platform_rotation[1][2]), t20, t347);
+    // first moment of payload and platform-side leg ends
+    let t367 = mul_add(t12, t135, t19 * t129);
+    let t368 = mul_add(t9, t135, t18 * t129);
+    let t369 = mul_add(t13, t135, t20 * t129);
+    // second moment of payload and platform-side leg ends
+    let t370 = P::triple([P::lane(t196, 1), P::lane(t257, 2), P::lane(t196, 2)]);
+    // mass matrix of the legs
+    let t371 = mul_sub(t320, t323, t352);
+    let t372 = mul_sub(t317, t325, t323 * t334);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t373 = w(2.0) * (t294 * t319);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t374 = neg_mul_add(t54, t355, mul_add(t329, t340, t339));
+    let t375 = neg_mul_add(t52, t355, mul_add(t330, t340, t341));
+    let t376 = neg_mul_add(t56, t355, mul_add(t331, t340, t342));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t377 = mul_add(P::splat(platform_rotation[2][2]), t20, t356);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t378 = w(2.0) * t363;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t379 = mul_add(t311, t319, t294 * t345);
+    // mass matrix of the legs
+    let t380 = mul_sub(t317, t357, t352);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t381 = t18 * P::splat(P::lane(t335, 1));
+    // constant and copied elements
+    let t382 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t383 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t384 = mul_add(t311, t346, t312 * t345);
+    // mass matrix of the legs
+    let t385 = t361 * t364;
+    let t386 = mul_sub(t317, t351, t323 * t325);
+    let t387 = mul_sub(t323, t357, t322 * t351);
+    // second moment of payload and platform-side leg ends
+    let t388 = mul_add(w(0.5), P::splat(t348), t362) - t383;
+    // constant and copied elements
+    let t389 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t390 = mul_sub(t33, t360, t37 * t359);
+    let t391 = mul_sub(t37, t358, t32 * t360);
+    let t392 = mul_sub(t32, t359, t33 * t358);
+    // second moment of payload and platform-side leg ends
+    let t393 = mul_add(t349 * t350, P::splat(parameters.payload_mass), t370) - t389;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t394 = w(2.0) * (t312 * t346);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t395 = t9 * P::splat(P::lane(t335, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t396 = t18 * P::splat(P::lane(t335, 0));
+    let t397 = neg_mul_add(t20, P::splat(P::lane(t354, 1)), P::splat(P::lane(t123, 1)));
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t398 = t264 * t374;
+    let t399 = t264 * t375;
+    let t400 = t264 * t376;
+    // mass matrix of the legs
+    let t401 = mul_sub(t377, t379, t385);
+    // second moment of payload and platform-side leg ends
+    let t402 = mul_add(P::splat(parameters.payload_mass), t382 * t382, t388);
+    // mass matrix of the legs
+    let t403 = mul_sub(t373, t377, t364 * t366);
+    let t404 = mul_sub(t366, t379, t361 * t373);
+    // first moment of payload and platform-side leg ends
+    let t405 = P::triple([P::lane(t367, 0), P::lane(t368, 0), P::lane(t369, 0)]);
+    let t406 = P::triple([P::lane(t367, 1), P::lane(t368, 1), P::lane(t369, 1)]);
+    // mass matrix of the legs
+    let t407 = mul_sub(t320, t322, t317 * t378);
+    let t408 = mul_sub(t323, t378, t322 * t357);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t409 = t9 * P::splat(P::lane(t335, 0));
+    let t410 = neg_mul_add(t13, P::splat(P::lane(t354, 1)), P::splat(P::lane(t123, 1)));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t411 = neg_mul_add(t20, P::splat(P::lane(t354, 0)), P::splat(P::lane(t123, 0)));
+    let t412 = t18 * P::splat(P::lane(t335, 2));
+    // mass matrix of the legs
+    let t413 = mul_add(t377, t401, mul_add(t317, t380, t323 * t365));
+    let t414 = mul_sub(t361, t394, t377 * t384);
+    // first moments by platform coordinate of the payload's inertia force
+    let t415 = t335 * P::splat(P::lane(t393, 0));
+    // first moment of payload and platform-side leg ends
+    let t416 = P::triple([P::lane(t367, 2), P::lane(t368, 2), P::lane(t369, 2)]);
+    // mass matrix of the legs
+    let t417 = mul_sub(t366, t384, t385);
+    let t418 = mul_add(t377, t403, mul_sub(t317, t386, t323 * t372));
+    let t419 = mul_sub(t364, t377, t366 * t394);
+    let t420 = mul_add(t377, t404, mul_sub(t317, t387, t323 * t371));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t421 = neg_mul_add(t13, P::splat(P::lane(t354, 0)), P::splat(P::lane(t123, 0)));
+    let t422 = t9 * P::splat(P::lane(t335, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t423 = t411 - mul_add(t19, P::splat(P::lane(t353, 0)), t396);
+    let t424 = t52 * (t397 - mul_add(t19, P::splat(P::lane(t353, 1)), t381));
+    let t425 = neg_mul_add(t20, P::splat(P::lane(t354, 2)), P::splat(P::lane(t123, 2)));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t426 = neg_mul_add(t47, t399, mul_add(t36, t400, t390));
+    let t427 = neg_mul_add(t40, t400, mul_add(t47, t398, t391));
+    let t428 = neg_mul_add(t36, t398, mul_add(t40, t399, t392));
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t429 = w(2.0) * (t311 * t345);
+    // first moments by platform coordinate of the payload's inertia force
+    let t430 = mul_add(t353, P::splat(P::lane(t402, 0)), t415);
+    // mass matrix of the legs
+    let t431 = mul_add(t366, t414, t413);
+    // first moment of payload and platform-side leg ends
+    let t432 = mul_add(P::splat(parameters.payload_mass), t382, t405 + t406 + t416);
+    // mass matrix of the legs
+    let t433 = neg_mul_add(t366, t419, t418);
+    let t434 = neg_mul_add(t366, t417, t420);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t435 = t421 - mul_add(t12, P::splat(P::lane(t353, 0)), t409);
+    let t436 = t39 * (t410 - mul_add(t12, P::splat(P::lane(t353, 1)), t395));
+    let t437 = neg_mul_add(t13, P::splat(P::lane(t354, 2)), P::splat(P::lane(t123, 2)));
+    // constant and copied elements
+    let t438 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t439 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t440 = t425 - mul_add(t19, P::splat(P::lane(t353, 2)), t412);
+    // mass matrix of the legs
+    let t441 = mul_add(w(2.0), t363, t429);
+    // first moments by platform coordinate of the payload's inertia force
+    let t442 = mul_add(t354, P::splat(P::lane(t393, 2)), t430);
+    // mass matrix of the legs
+    let t443 = t357 + t379;
+    let t444 = t320 + t384;
+    // constant and copied elements
+    let t445 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    let t446 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t447 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t448 = t335 * P::splat(P::lane(t402, 1));
+    // mass matrix of the legs
+    let t449 = mul_add(t361, t414, mul_sub(t322, t365, t317 * t407));
+    let t450 = mul_sub(t361, t384, t377 * t429);
+    let t451 = mul_add(t361, t417, mul_sub(t322, t371, t317 * t408));
+    let t452 = mul_sub(t366, t429, t361 * t379);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t453 = t437 - mul_add(t12, P::splat(P::lane(t353, 2)), t422);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t454 = mul_add(t56, t440, mul_add(t54, t423, t424));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t455 = mul_add(t218 - t438, t447, t274 * t439);
+    // mass of payload and platform-side leg ends
+    let t456 = t129 + t135;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t457 = P::triple([P::lane(t426, 0), P::lane(t427, 0), P::lane(t428, 0)]);
+    let t458 = P::triple([P::lane(t426, 1), P::lane(t427, 1), P::lane(t428, 1)]);
+    // constant and copied elements
+    let t459 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    // inertia force less weight, without the actuators' own shares
+    let t460 = mul_add(t203, t336, t398);
+    let t461 = mul_add(t203, t337, t399);
+    let t462 = mul_add(t203, t338, t400);
+    // first moments by platform coordinate of the payload's inertia force
+    let t463 = mul_sub(t123, P::splat(P::lane(t432, 0)), t442);
+    let t464 = mul_add(t353, P::splat(P::lane(t393, 0)), t448);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t465 = mul_add(t51, t453, mul_add(t44, t435, t436));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t466 = mul_add(t177 - t445, t459, t212 * t446);
+    // mass matrix of the legs
+    let t467 = neg_mul_add(t377, t450, t449);
+    let t468 = neg_mul_add(t377, t452, t451);
+    let t469 = P::triple([P::lane(t433, 0), -P::lane(t431, 0), P::lane(t434, 0)]);
+    let t470 = P::triple([P::lane(t433, 1), -P::lane(t431, 1), P::lane(t434, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t471 = mul_add(t56, t376, mul_add(t54, t374, t52 * t375));
+    let t472 = mul_add(t331, t331, mul_add(t329, t329, t330 * t330));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t473 = P::triple([P::lane(t426, 2), P::lane(t427, 2), P::lane(t428, 2)]);
+    let t474 = t457 + t458 + t473;
+    // mass matrix of the legs
+    let t475 = mul_add(w(2.0), t333, t373);
+    let t476 = P::triple([P::lane(t441, 0), P::lane(t443, 0), P::lane(t444, 0)]);
+    let t477 = P::triple([P::lane(t441, 1), P::lane(t443, 1), P::lane(t444, 1)]);
+    // mass matrix M_p of the platform
+    let t478 = t386 + t403;
+    // first moments by platform coordinate of the payload's inertia force
+    let t479 = mul_add(t354, P::splat(P::lane(t393, 1)), t464);
+    // constant and copied elements
+    let t480 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t481 = mul_add(t377, t379, mul_sub(t317, t357, t320 * t323));
+    let t482 = t325 + t364;
+    let t483 = P::triple([P::lane(t433, 2), -P::lane(t431, 2), P::lane(t434, 2)]);
+    // mass matrix M_p of the platform
+    let t484 = t387 + t404;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t485 = mul_add(t51, t338, mul_add(t44, t336, t39 * t337));
+    let t486 = mul_add(t280, t280, mul_add(t278, t278, t279 * t279));
+    // constant and copied elements
+    let t487 =
+        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t488 = t335 * P::splat(P::lane(t393, 1));
+    // inertia less external wrench that the actuators must balance
+    let t489 = P::splat(parameters.payload_com[1]) * t480;
+    // mass matrix of the legs
+    let t490 = mul_add(t366, t452, mul_sub(t323, t408, t322 * t387));
+    let t491 = t469 + t470 + t483;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t492 = mul_add(t472, t487, t471);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t493 = mul_add(t233, t471, mul_add(t264, t454, t455));
+    // mass matrix M_p of the platform
+    let t494 = platform_rotation[2][1] * P::lane(t432, 1);
+    // mass matrix of the legs
+    let t495 = P::triple([P::lane(t441, 2), P::lane(t443, 2), P::lane(t444, 2)]);
+    // mass matrix M_p of the platform
+    let t496 = t408 + t452;
+    let t497 = t365 + t414;
+    let t498 = platform_rotation[0][1] * P::lane(t432, 1);
+    // constant and copied elements
+    let t499 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // mass matrix of the legs
+    let t500 = t380 + t401;
+    let t501 = t476 + t477 + t495;
+    // mass matrix M_p of the platform
+    let t502 = t407 + t450;
+    let t503 = t372 + t419;
+    // constant and copied elements
+    let t504 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    // inertia force less weight, without the actuators' own shares
+    let t505 = P::triple([P::lane(t460, 0), P::lane(t461, 0), P::lane(t462, 0)]);
+    let t506 = P::triple([P::lane(t460, 1), P::lane(t461, 1), P::lane(t462, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t507 = mul_sub(t123, P::splat(P::lane(t432, 1)), t479);
+    let t508 = mul_add(t353, P::splat(P::lane(t393, 2)), t488);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t509 = P::mul_add(P::lane(t15, 1), P::lane(t463, 2), P::lane(t474, 0));
+    // inertia less external wrench that the actuators must balance
+    let t510 = mul_add(P::splat(parameters.payload_com[0]), t499, t489);
+    // mass matrix of the legs
+    let t511 = neg_mul_add(t366, t384, t481);
+    // mass of payload and platform-side leg ends
+    let t512 = P::lane(t456, 2) + (P::lane(t456, 1) + P::lane(t456, 0));
+    // mass matrix M_p of the platform
+    let t513 = platform_rotation[0][1] * P::lane(t393, 0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t514 = mul_add(t486, t504, t485);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t515 = mul_add(t187, t485, mul_add(t203, t465, t466));
+    // mass matrix M_p of the platform
+    let t516 = P::mul_add(platform_rotation[2][0], P::lane(t432, 0), t494);
+    let t517 = platform_rotation[1][1] * P::lane(t432, 1);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t518 = mul_sub(t312, t366, t294 * t377);
+    let t519 = mul_sub(t311, t377, t312 * t361);
+    let t520 = mul_sub(t294, t361, t311 * t366);
+    // mass matrix of the legs
+    let t521 = t371 + t417;
+    let t522 = neg_mul_add(t361, t404, t490);
+    let t523 = P::lane(t468, 1) + P::lane(t468, 0);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t524 = mul_add(t265, t492, t493);
+    // mass matrix M_p of the platform
+    let t525 = P::mul_add(platform_rotation[0][0], P::lane(t432, 0), t498);
+    // inertia force less weight, without the actuators' own shares
+    let t526 = P::triple([P::lane(t460, 2), P::lane(t461, 2), P::lane(t462, 2)]);
+    // constant and copied elements
+    let t527 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // mass matrix of the legs
+    let t528 = mul_add(w(2.0), t315, t394);
+    let t529 = P::lane(t482, 1) + P::lane(t482, 0);
+    // mass of payload and platform-side leg ends
+    let t530 = parameters.payload_mass + t512;
+    // mass matrix M_p of the platform
+    let t531 = P::mul_add(platform_rotation[0][0], P::lane(t402, 0), t513);
+    // constant and copied elements
+    let t532 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t533 = mul_add(t354, P::splat(P::lane(t402, 2)), t508);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t534 = P::mul_add(P::lane(t15, 2), P::lane(t463, 0), P::lane(t474, 1));
+    let t535 = P::neg_mul_add(P::lane(t15, 2), P::lane(t463, 1), t509);
+    // mass matrix M_p of the platform
+    let t536 = P::mul_add(platform_rotation[1][0], P::lane(t432, 0), t517);
+    // inertia less external wrench that the actuators must balance
+    let t537 = mul_add(P::splat(parameters.payload_com[2]), t527, t510);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t538 = mul_sub(t240, t323, t232 * t317);
+    let t539 = mul_sub(t224, t317, t240 * t322);
+    let t540 = mul_sub(t232, t322, t224 * t323);
+    // mass matrix of the legs
+    let t541 = P::triple([P::lane(t491, 1), P::lane(t467, 2), P::lane(t468, 2)]);
+    let t542 = P::triple([c(0.0), P::lane(t467, 1) + P::lane(t467, 0), t523]);
+    // mass matrix M_p of the platform
+    let t543 = P::lane(t402, 2) + (P::lane(t402, 0) + P::lane(t402, 1));
+    let t544 = platform_rotation[0][1] * P::lane(t402, 1);
+    let t545 = P::splat(P::lane(t393, 0)) * t532;
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t546 = mul_add(t204, t514, t515);
+    // mass matrix M_p of the platform
+    let t547 = P::mul_add(platform_rotation[2][2], P::lane(t432, 2), t516);
+    // mass matrix of the legs
+    let t548 = t541 + t542;
+    // mass matrix M_p of the platform
+    let t549 = P::mul_add(platform_rotation[0][2], P::lane(t432, 2), t525);
+    // mass matrix of the legs
+    let t550 = P::triple([P::lane(t501, 1), P::lane(t475, 2), P::lane(t482, 2)]);
+    let t551 = P::triple([c(0.0), P::lane(t475, 1) + P::lane(t475, 0), t529]);
+    // constant and copied elements
+    let t552 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    // inertia force less weight, without the actuators' own shares
+    let t553 = mul_add(t123, P::splat(t530), t505 + t506 + t526);
+    // mass matrix of the legs
+    let t554 = t550 + t551;
+    // mass matrix M_p of the platform
+    let t555 = P::mul_add(platform_rotation[0][2], P::lane(t393, 2), t531);
+    // constant and copied elements
+    let t556 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t557 = P::mul_add(platform_rotation[0][0], P::lane(t393, 0), t544);
+    let t558 = mul_add(P::splat(P::lane(t402, 0)), t552, t545);
+    // first moments by platform coordinate of the payload's inertia force
+    let t559 = mul_sub(t123, P::splat(P::lane(t432, 2)), t533);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t560 = P::mul_add(P::lane(t15, 0), P::lane(t463, 1), P::lane(t474, 2));
+    let t561 = P::neg_mul_add(P::lane(t15, 0), P::lane(t463, 2), t534);
+    let t562 = P::mul_add(P::lane(t14, 1), P::lane(t507, 2), t535);
+    // mass matrix M_p of the platform
+    let t563 = P::mul_add(platform_rotation[1][2], P::lane(t432, 2), t536);
+    // constant and copied elements
+    let t564 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t565 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t566 = t491 + P::triple([t543, c(0.0), c(0.0)]);
+    let t567 = platform_rotation[0][1] * P::lane(t393, 1);
+    let t568 = P::splat(P::lane(t402, 1)) * t532;
+    let t569 = P::splat(P::lane(t393, 0)) * t556;
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t570 = mul_add(t538, t546, t518 * t524);
+    let t571 = mul_add(t539, t546, t519 * t524);
+    let t572 = mul_add(t540, t546, t520 * t524);
+    let t573 = mul_add(t224, t546, t311 * t524);
+    let t574 = mul_add(t232, t546, t294 * t524);
+    let t575 = mul_add(t240, t546, t312 * t524);
+    // mass matrix of the legs
+    let t576 = P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0));
+    mass_matrix_p[1][4] = t576;
+    mass_matrix_p[4][1] = t576;
+    // mass matrix M_p of the platform
+    let t577 = t549 - (P::lane(t484, 2) + (P::lane(t484, 1) + P::lane(t484, 0)));
+    mass_matrix_p[1][5] = t577;
+    mass_matrix_p[5][1] = t577;
+    let t578 = P::triple([c(0.0), t530, c(0.0)]);
+    // constant and copied elements
+    let t579 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t580 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    // inertia force less weight, without the actuators' own shares
+    let t581 = mul_sub(t353, P::splat(P::lane(t432, 0)), t553);
+    // mass matrix of the legs
+    let t582 = t554 + t578;
+    // mass matrix M_p of the platform
+    let t583 = neg_mul_add(P::splat(t555), t579, t566);
+    let t584 = P::mul_add(platform_rotation[0][2], P::lane(t393, 1), t557);
+    let t585 = P::mul_add(platform_rotation[0][0], P::lane(t393, 2), t567);
+    let t586 = P::triple([c(0.0), t543, c(0.0)]);
+    let t587 = mul_add(P::splat(P::lane(t393, 2)), t580, t558);
+    let t588 = mul_add(P::splat(P::lane(t393, 0)), t552, t568);
+    let t589 = mul_add(P::splat(P::lane(t402, 0)), t579, t569);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t590 = P::neg_mul_add(P::lane(t15, 1), P::lane(t463, 0), t560);
+    let t591 = P::mul_add(P::lane(t14, 2), P::lane(t507, 0), t561);
+    let t592 = P::neg_mul_add(P::lane(t14, 2), P::lane(t507, 1), t562);
+    // mass matrix M_p of the platform
+    let t593 = -(t547 + (P::lane(t478, 2) + (P::lane(t478, 1) + P::lane(t478, 0))));
+    mass_matrix_p[1][3] = t593;
+    mass_matrix_p[3][1] = t593;
+    // constant and copied elements
+    let t594 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t595 = P::triple([P::lane(t537, 1), P::lane(t537, 2), P::lane(t537, 0)]);
+    // mass matrix of the legs
+    let t596 = P::triple([P::lane(t491, 2), P::lane(t548, 2), P::lane(t522, 2)]);
+    let t597 = P::triple([c(0.0), c(0.0), P::lane(t522, 1) + P::lane(t522, 0)]);
+    let t598 = t548 + t586;
+    // mass matrix M_p of the platform
+    let t599 = P::splat(P::lane(t393, 1)) * t532;
+    let t600 = P::splat(P::lane(t402, 1)) * t556;
+    let t601 = t563 - (P::lane(t503, 2) + (P::lane(t503, 1) + P::lane(t503, 0)));
+    mass_matrix_p[2][3] = t601;
+    mass_matrix_p[3][2] = t601;
+    let t602 = t547 - (P::lane(t502, 2) + (P::lane(t502, 1) + P::lane(t502, 0)));
+    mass_matrix_p[0][4] = t602;
+    mass_matrix_p[4][0] = t602;
+    let t603 = P::triple([t593, t576, t577]);
+    // inertia less external wrench that the actuators must balance
+    let t604 = neg_mul_add(t594, t595, mul_add(t537, t565, t564));
+    // mass of payload and platform-side leg ends
+    let t605 = P::triple([t530, c(0.0), c(0.0)]);
+    // inertia less external wrench that the actuators must balance
+    let t606 = t603 * P::splat(platform_acceleration[1]);
+    // mass matrix of the legs
+    let t607 = P::triple([P::lane(t501, 2), P::lane(t554, 2), P::lane(t528, 2)]);
+    let t608 = P::triple([c(0.0), c(0.0), P::lane(t528, 1) + P::lane(t528, 0)]);
+    // mass matrix M_p of the platform
+    let t609 = t501 + t605;
+    // constant and copied elements
+    let t610 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t611 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // inertia force less weight, without the actuators' own shares
+    let t612 = mul_add(t335, P::splat(P::lane(t432, 1)), t581);
+    // inertia less external wrench that the actuators must balance
+    let t613 = t582 * P::splat(platform_acceleration[1]);
+    // mass matrix of the legs
+    let t614 = -(P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0)));
+    mass_matrix_p[0][3] = t614;
+    mass_matrix_p[3][0] = t614;
+    // mass matrix M_p of the platform
+    let t615 = -(t549 + (P::lane(t497, 2) + (P::lane(t497, 1) + P::lane(t497, 0))));
+    mass_matrix_p[2][4] = t615;
+    mass_matrix_p[4][2] = t615;
+    let t616 = -(t563 + (P::lane(t496, 2) + (P::lane(t496, 1) + P::lane(t496, 0))));
+    mass_matrix_p[0][5] = t616;
+    mass_matrix_p[5][0] = t616;
+    // mass matrix of the legs
+    let t617 = -(P::lane(t521, 2) + (P::lane(t521, 1) + P::lane(t521, 0)));
+    mass_matrix_p[2][5] = t617;
+    mass_matrix_p[5][2] = t617;
+    // mass matrix M_p of the platform
+    let t618 = neg_mul_add(t556, P::splat(t584), t583);
+    let t619 = P::mul_add(platform_rotation[0][2], P::lane(t402, 2), t585);
+    let t620 = mul_add(P::splat(P::lane(t393, 1)), t580, t588);
+    let t621 = mul_add(P::splat(P::lane(t393, 2)), t552, t599);
+    let t622 = P::triple([c(0.0), c(0.0), t543]);
+    let t623 = mul_add(P::splat(P::lane(t393, 2)), t610, t589);
+    let t624 = mul_add(P::splat(P::lane(t393, 0)), t579, t600);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t625 = P::mul_add(P::lane(t14, 0), P::lane(t507, 1), t590);
+    let t626 = P::neg_mul_add(P::lane(t14, 0), P::lane(t507, 2), t591);
+    let t627 = P::mul_add(P::lane(t17, 1), P::lane(t559, 2), t592);
+    // mass matrix of the legs
+    let t628 = P::triple([t614, t602, t616]);
+    // mass matrix M_p of the platform
+    let t629 = P::triple([t601, t615, t617]);
+    // mass matrix of the legs
+    let t630 = t596 + t597 + t622;
+    // mass matrix M_p of the platform
+    let t631 = P::splat(P::lane(t393, 1)) * t556;
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t632 = P::triple([P::lane(t570, 0), P::lane(t571, 0), P::lane(t572, 0)]);
+    let t633 = P::triple([P::lane(t570, 1), P::lane(t571, 1), P::lane(t572, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t634 = neg_mul_add(t629, P::splat(platform_acceleration[2]), t604);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t635 = P::triple([P::lane(t573, 0), P::lane(t574, 0), P::lane(t575, 0)]);
+    let t636 = P::triple([P::lane(t573, 1), P::lane(t574, 1), P::lane(t575, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t637 = mul_add(t609, P::splat(platform_acceleration[0]), t613);
+    // mass matrix of the legs
+    let t638 = t607 + t608 + P::triple([c(0.0), c(0.0), t530]);
+    // constant and copied elements
+    let t639 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // inertia force less weight, without the actuators' own shares
+    let t640 = mul_add(t354, P::splat(P::lane(t432, 2)), t612);
+    // mass matrix M_p of the platform
+    let t641 = neg_mul_add(t610, P::splat(t619), t618);
+    let t642 = neg_mul_add(t620, t639, neg_mul_add(t587, t611, t598));
+    let t643 = mul_add(P::splat(P::lane(t402, 2)), t580, t621);
+    let t644 = neg_mul_add(P::splat(platform_rotation[2][0]), t623, t630);
+    let t645 = mul_add(P::splat(P::lane(t393, 1)), t610, t624);
+    let t646 = mul_add(P::splat(P::lane(t393, 2)), t579, t631);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t647 = P::triple([P::lane(t570, 2), P::lane(t571, 2), P::lane(t572, 2)]);
+    let t648 = P::neg_mul_add(P::lane(t14, 1), P::lane(t507, 0), t625);
+    let t649 = P::mul_add(P::lane(t17, 2), P::lane(t559, 0), t626);
+    let t650 = P::neg_mul_add(P::lane(t17, 2), P::lane(t559, 1), t627);
+    let t651 = P::triple([P::lane(t573, 2), P::lane(t574, 2), P::lane(t575, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t652 = t634 - mul_add(t628, P::splat(platform_acceleration[0]), t606);
+    let t653 = mul_add(P::splat(platform_acceleration[2]), t638, t637);
+    // constant and copied elements
+    let t654 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t655 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t656 = neg_mul_add(t643, t654, t642);
+    let t657 = neg_mul_add(P::splat(platform_rotation[2][1]), t645, t644);
+    let t658 = mul_add(P::splat(P::lane(t402, 2)), t610, t646);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t659 = P::mul_add(P::lane(t17, 0), P::lane(t559, 1), t648);
+    let t660 = P::neg_mul_add(P::lane(t17, 0), P::lane(t559, 2), t649);
+    let t661 = neg_mul_add(P::splat(t650), t655, t632 + t633 + t647);
+    // inertia less external wrench that the actuators must balance
+    let t662 = neg_mul_add(t641, P::splat(platform_acceleration[3]), t652);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t663 = mul_add(t655, P::splat(P::lane(t640, 0)), t635 + t636 + t651);
+    // mass matrix of the legs
+    let t664 = P::triple([t614, t593, t601]);
+    // constant and copied elements
+    let t665 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // inertia less external wrench that the actuators must balance
+    let t666 = mul_add(P::splat(platform_acceleration[3]), t664, t653);
+    // mass matrix M_p of the platform
+    let t667 = neg_mul_add(P::splat(platform_rotation[2][2]), t658, t657);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t668 = P::neg_mul_add(P::lane(t17, 1), P::lane(t559, 0), t659);
+    // inertia less external wrench that the actuators must balance
+    let t669 = neg_mul_add(t656, P::splat(platform_acceleration[4]), t662);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t670 = mul_add(P::splat(P::lane(t640, 1)), t665, t663);
+    // mass matrix M_p of the platform
+    let t671 = P::triple([t602, t576, t615]);
+    let t672 = P::triple([t616, t577, t617]);
+    // constant and copied elements
+    let t673 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    // inertia less external wrench that the actuators must balance
+    let t674 = mul_sub(t672, P::splat(platform_acceleration[5]), t673);
+    // constant and copied elements
+    let t675 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t676 = mul_add(P::splat(t668), t675, mul_sub(P::splat(t660), t665, t661));
+    let t677 = mul_add(P::splat(P::lane(t640, 2)), t675, t670);
+    // inertia less external wrench that the actuators must balance
+    let t678 = mul_add(P::splat(platform_acceleration[4]), t671, t666) + t674;
+    let t679 = neg_mul_add(t667, P::splat(platform_acceleration[5]), t669) + t676;
+    let t680 = t677 + t678;
+    let t681 = -P::lane(t679, 0);
+    let t682 = -P::lane(t679, 1);
+    let t683 = -P::lane(t679, 2);
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_general(
+        &[
+            [P::lane(t224, 0), P::lane(t224, 1), P::lane(t224, 2), P::lane(t311, 0), P::lane(t311, 1), P::lane(t311, 2)],
+            [P::lane(t232, 0), P::lane(t232, 1), P::lane(t232, 2), P::lane(t294, 0), P::lane(t294, 1), P::lane(t294, 2)],
+            [P::lane(t240, 0), P::lane(t240, 1), P::lane(t240, 2), P::lane(t312, 0), P::lane(t312, 1), P::lane(t312, 2)],
+            [P::lane(t538, 0), P::lane(t538, 1), P::lane(t538, 2), P::lane(t518, 0), P::lane(t518, 1), P::lane(t518, 2)],
+            [P::lane(t539, 0), P::lane(t539, 1), P::lane(t539, 2), P::lane(t519, 0), P::lane(t519, 1), P::lane(t519, 2)],
+            [P::lane(t540, 0), P::lane(t540, 1), P::lane(t540, 2), P::lane(t520, 0), P::lane(t520, 1), P::lane(t520, 2)],
+        ],
+        &[P::lane(t680, 0), P::lane(t680, 1), P::lane(t680, 2), t681, t682, t683],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t177, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t177, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t177, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t218, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t218, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t218, 2);
+    // leg 1: rate of the rod's extent along the actuator axis
+    actuator_velocity[0] = P::lane(t212, 0);
+    // leg 2: rate of the rod's extent along the actuator axis
+    actuator_velocity[1] = P::lane(t212, 1);
+    // leg 3: rate of the rod's extent along the actuator axis
+    actuator_velocity[2] = P::lane(t212, 2);
+    // leg 4: rate of the rod's extent along the actuator axis
+    actuator_velocity[3] = P::lane(t274, 0);
+    // leg 5: rate of the rod's extent along the actuator axis
+    actuator_velocity[4] = P::lane(t274, 1);
+    // leg 6: rate of the rod's extent along the actuator axis
+    actuator_velocity[5] = P::lane(t274, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t224, 0);
+    jacobian_dp[0][1] = P::lane(t232, 0);
+    jacobian_dp[0][2] = P::lane(t240, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t538, 0);
+    jacobian_dp[0][4] = P::lane(t539, 0);
+    jacobian_dp[0][5] = P::lane(t540, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t224, 1);
+    jacobian_dp[1][1] = P::lane(t232, 1);
+    jacobian_dp[1][2] = P::lane(t240, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t538, 1);
+    jacobian_dp[1][4] = P::lane(t539, 1);
+    jacobian_dp[1][5] = P::lane(t540, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t224, 2);
+    jacobian_dp[2][1] = P::lane(t232, 2);
+    jacobian_dp[2][2] = P::lane(t240, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t538, 2);
+    jacobian_dp[2][4] = P::lane(t539, 2);
+    jacobian_dp[2][5] = P::lane(t540, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t311, 0);
+    jacobian_dp[3][1] = P::lane(t294, 0);
+    jacobian_dp[3][2] = P::lane(t312, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t518, 0);
+    jacobian_dp[3][4] = P::lane(t519, 0);
+    jacobian_dp[3][5] = P::lane(t520, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t311, 1);
+    jacobian_dp[4][1] = P::lane(t294, 1);
+    jacobian_dp[4][2] = P::lane(t312, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t518, 1);
+    jacobian_dp[4][4] = P::lane(t519, 1);
+    jacobian_dp[4][5] = P::lane(t520, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t311, 2);
+    jacobian_dp[5][1] = P::lane(t294, 2);
+    jacobian_dp[5][2] = P::lane(t312, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t518, 2);
+    jacobian_dp[5][4] = P::lane(t519, 2);
+    jacobian_dp[5][5] = P::lane(t520, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t609, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t501, 1);
+    mass_matrix_p[0][2] = P::lane(t501, 2);
+    mass_matrix_p[1][0] = P::lane(t501, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t582, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t554, 2);
+    mass_matrix_p[2][0] = P::lane(t501, 2);
+    mass_matrix_p[2][1] = P::lane(t554, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t638, 2);
+    mass_matrix_p[3][3] = P::lane(t641, 0);
+    mass_matrix_p[3][4] = P::lane(t641, 1);
+    mass_matrix_p[3][5] = P::lane(t641, 2);
+    mass_matrix_p[4][3] = P::lane(t641, 1);
+    mass_matrix_p[4][4] = P::lane(t656, 1);
+    mass_matrix_p[4][5] = P::lane(t656, 2);
+    mass_matrix_p[5][3] = P::lane(t641, 2);
+    mass_matrix_p[5][4] = P::lane(t656, 2);
+    mass_matrix_p[5][5] = P::lane(t667, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t677, 0);
+    total_bias[1] = P::lane(t677, 1);
+    total_bias[2] = P::lane(t677, 2);
+    total_bias[3] = -P::lane(t676, 0);
+    total_bias[4] = -P::lane(t676, 1);
+    total_bias[5] = -P::lane(t676, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    let t21 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    // constant and copied elements
+    let t36 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
+    // constant and copied elements
+    let t39 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
+    // constant and copied elements
+    let t44 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t45 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    let t46 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t45;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t48 = mul_add(t21, P::splat(P::lane(t17, 2)), t41);
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 1)) + t38 - t46;
+    // constant and copied elements
+    let t50 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+    let t51 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t52 =
+        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t51;
+    // constant and copied elements
+    let t54 =
+        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+    let t55 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    let t56 =
+        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t47, t50, mul_add(t42, t44, t39 * t43));
+    // legs 4, 5, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t48 - t55;
+    // constant and copied elements
+    let t59 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+    // angular velocity of the base
+    let t60 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t61 = t59 * t59;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t62 = neg_mul_add(t39, t57, t43);
+    let t63 = neg_mul_add(t44, t57, t42);
+    let t64 = neg_mul_add(t50, t57, t47);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t65 = mul_add(t56, t58, mul_add(t53, t54, t49 * t52));
+    // angular velocity of the base
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    // velocity of the platform origin relative to the base
+    let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // constant and copied elements
+    let t68 =
+        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+    // angular velocity of the platform
+    let t69 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t70 = t68 * t68;
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t52, t65, t49);
+    let t72 = neg_mul_add(t54, t65, t53);
+    let t73 = neg_mul_add(t56, t65, t58);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t74 = mul_add(t63, t63, t62 * t62);
+    // angular velocity of the base
+    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    // velocity of the platform origin relative to the base
+    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    // angular velocity of the platform
+    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    // angular acceleration of the base
+    let t78 = t1 * P::splat(base_acceleration[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t79 = mul_add(t72, t72, t71 * t71);
+    // velocity of the platform origin relative to the base
+    let t80 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t81 = sqrt(neg_mul_add(t64, t64, t61) - t74);
+    // angular acceleration of the base
+    let t82 = mul_add(t2, P::splat(base_acceleration[3]), t78);
+    // angular velocity of the platform
+    let t83 = mul_add(t5, P::splat(platform_velocity[5]), t77);
+    // platform origin seen from the base
+    let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t86 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t87 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
+    // angular acceleration of the base
+    let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
+    // angular velocity of the platform relative to the base
+    let t89 = t75 - t83;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t90 = sqrt(neg_mul_add(t73, t73, t70) - t79);
+    // platform origin seen from the base
+    let t91 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t92 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t93 = t86 * t87;
+    // velocity of the platform origin relative to the base
+    let t94 = mul_add(t91, t92, neg_mul_add(t84, t85, t80));
+    // angular velocity of the base
+    let t95 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t96 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t97 = mul_add(t96, t96, t95 * t95);
+    // angular acceleration of the base
+    let t98 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t99 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
+    // angular velocity of the platform relative to the base
+    let t100 = P::triple([P::lane(t89, 2), P::lane(t89, 0), P::lane(t89, 1)]);
+    // acceleration of the base origin less gravity
+    let t101 = base_acceleration[0] - parameters.gravity[0];
+    let t102 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular acceleration of the base
+    let t103 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t104 = t98 + t99;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t105 = neg_mul_add(t31, P::splat(P::lane(t89, 2)), P::splat(P::lane(t94, 1)));
+    // acceleration per base coordinate of points that move with the base
+    let t106 = mul_sub(t86, t87, t103);
+    // angular velocity of the platform
+    let t107 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t108 = t85 + t107;
+    // angular velocity of the platform relative to the base
+    let t109 = P::triple([P::lane(t89, 1), P::lane(t89, 2), P::lane(t89, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t110 = w(1.0) / t81;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t111 = neg_mul_add(t37, P::splat(P::lane(t89, 1)), P::splat(P::lane(t94, 0)));
+    // acceleration of the base origin less gravity
+    let t112 = base_acceleration[2] - parameters.gravity[2];
+    // rate of that angular velocity
+    let t113 = mul_add(t92, t109, neg_mul_add(t85, t100, t88));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t114 = mul_add(t37, P::splat(P::lane(t89, 0)), t105);
+    // acceleration of the base origin less gravity
+    let t115 = mul_add(t5, P::splat(t112), mul_add(t2, P::splat(t101), t102));
+    // acceleration per base coordinate of points that move with the base
+    let t116 = P::triple([P::lane(t106, 0), -P::lane(t97, 1), P::lane(t104, 2)]);
+    // constant and copied elements
+    let t117 =
+        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t118 = mul_add(t33, P::splat(P::lane(t89, 2)), t111);
+    let t119 = neg_mul_add(t33, P::splat(P::lane(t89, 0)), P::splat(P::lane(t94, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t120 = P::splat(P::lane(t22, 1)) * t116;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t121 = t117 / t70;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t122 = neg_mul_add(t40, P::splat(P::lane(t89, 2)), P::splat(P::lane(t94, 1)));
+    // acceleration per base coordinate of points that move with the base
+    let t123 = P::triple([-P::lane(t97, 0), P::lane(t104, 1), P::lane(t106, 2)]);
+    let t124 = P::triple([P::lane(t104, 0), P::lane(t106, 1), -P::lane(t97, 2)]);
+    // velocity of the platform origin relative to the base
+    let t125 = P::triple([P::lane(t94, 1), P::lane(t94, 2), P::lane(t94, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t126 = P::triple([P::lane(t108, 1), P::lane(t108, 2), P::lane(t108, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t127 = t37 * P::splat(P::lane(t113, 0));
+    // constant and copied elements
+    let t128 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t129 = mul_add(P::splat(P::lane(t22, 2)), t124, t115);
+    // legs 4, 5, 6: reciprocal of that extent
+    let t130 = w(1.0) / t90;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t131 = t128 / t61;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t48, P::splat(P::lane(t89, 1)), P::splat(P::lane(t94, 0)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t133 = mul_add(t31, P::splat(P::lane(t89, 1)), t119);
+    // rotation of the platform seen from the base
+    let t134 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t135 = mul_add(t48, P::splat(P::lane(t89, 0)), t122);
+    // acceleration per platform coordinate of points of the platform
+    let t136 = mul_sub(t83, t134, t14 * t107);
+    // velocity of the platform origin relative to the base
+    let t137 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t138 = t33 * P::splat(P::lane(t113, 2));
+    let t139 = mul_sub(t31, P::splat(P::lane(t113, 2)), t127);
+    // rotation of the platform seen from the base
+    let t140 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t141 = mul_add(P::splat(P::lane(t22, 0)), t123, t120) + t129;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t142 = mul_add(t38, P::splat(P::lane(t89, 2)), t132);
+    let t143 = neg_mul_add(t38, P::splat(P::lane(t89, 0)), P::splat(P::lane(t94, 2)));
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t144 = mul_add(t50, t133, mul_add(t44, t118, t39 * t114));
+    // acceleration per platform coordinate of points of the platform
+    let t145 = mul_sub(t83, t140, t15 * t107);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t146 = mul_sub(t37, P::splat(P::lane(t113, 1)), t138);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t147 = mul_add(t62, t110, t39);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t148 = mul_add(P::splat(P::lane(t89, 2)), t118, t139);
+    let t149 = t31 * P::splat(P::lane(t113, 1));
+    // constant and copied elements
+    let t150 =
+        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
+    let t151 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t152 = mul_sub(t108, t137, t125 * t126) + t141;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t153 = t48 * P::splat(P::lane(t113, 0));
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t154 = t150 * t151;
+    // rotation of the platform seen from the base
+    let t155 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t156 = mul_add(t63, t110, t44);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t157 = mul_add(t40, P::splat(P::lane(t89, 1)), t143);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t158 = neg_mul_add(t39, t144, t114);
+    // acceleration per platform coordinate of points of the platform
+    let t159 = mul_sub(t83, t155, t17 * t107);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t160 = mul_add(P::splat(P::lane(t89, 1)), t133, t146);
+    let t161 = mul_sub(t33, P::splat(P::lane(t113, 0)), t149);
+    // constant and copied elements
+    let t162 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+    let t163 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    // angular velocity of the platform
+    let t164 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t165 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t166 = t38 * P::splat(P::lane(t113, 2));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t167 = neg_mul_add(P::splat(P::lane(t89, 0)), t133, t148);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t168 = mul_sub(t40, P::splat(P::lane(t113, 2)), t153);
+    // legs 1, 2, 3: actuator length d
+    let t169 = t57 - t81;
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t170 = t162 * t163;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t171 = mul_add(t150, t154, t121);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t172 = w(1.0) - t162;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t173 = neg_mul_add(t44, t144, t118);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t174 = mul_add(t64, t110, t50);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t175 = mul_add(t56, t157, mul_add(t54, t142, t52 * t135));
+    // acceleration per platform coordinate of points of the platform
+    let t176 = P::triple([P::lane(t145, 2), P::lane(t145, 0), P::lane(t145, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t177 = neg_mul_add(P::splat(P::lane(t89, 2)), t114, t160);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t178 = mul_sub(t48, P::splat(P::lane(t113, 1)), t166);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t179 = mul_add(P::splat(P::lane(t89, 0)), t114, t161);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t180 = mul_add(t71, t130, t52);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t181 = mul_add(t162, t170, t131);
+    // acceleration per platform coordinate of points of the platform
+    let t182 = mul_sub(t107, t136, t164 * t165);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t183 = P::splat(P::lane(t152, 1)) + t167;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t184 = mul_add(P::splat(P::lane(t89, 2)), t142, t168);
+    let t185 = t40 * P::splat(P::lane(t113, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t186 = mul_add(t39, t169, t20);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t187 = w(1.0) - t150;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t188 = neg_mul_add(t50, t144, t133);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t189 = mul_add(t72, t130, t54);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t190 = neg_mul_add(t52, t175, t135);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t191 = mul_add(t133, t174, mul_add(t118, t156, t114 * t147));
+    // acceleration per platform coordinate of points of the platform
+    let t192 = mul_sub(t107, t145, t164 * t176);
+    let t193 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t194 = t177 + P::splat(P::lane(t152, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t195 = mul_add(P::splat(P::lane(t89, 1)), t157, t178);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t196 = neg_mul_add(P::splat(P::lane(t89, 1)), t118, t179);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t197 = mul_sub(t38, P::splat(P::lane(t113, 0)), t185);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t198 = mul_add(t44, t169, t36);
+    let t199 = mul_add(t50, t169, t45);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t200 = mul_add(t172, t163 * t172, t131);
+    // second moment of payload and platform-side leg ends
+    let t201 = mul_add(t181, t12 * t12, t171 * (t19 * t19));
+    let t202 = mul_add(t181, t9 * t12, t171 * (t18 * t19));
+    let t203 = mul_add(t181, t12 * t13, t171 * (t19 * t21));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t204 = neg_mul_add(P::splat(P::lane(t89, 0)), t157, t184);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t205 = P::splat(P::lane(t97, 1)) * t186;
+    // legs 4, 5, 6: actuator length d
+    let t206 = t65 - t90;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t207 = neg_mul_add(t54, t175, t142);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t208 = mul_add(t188, t188, mul_add(t173, t173, t158 * t158));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t209 = mul_add(t73, t130, t56);
+    // constant and copied elements
+    let t210 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t211 = t144 - t191;
+    // acceleration per platform coordinate of points of the platform
+    let t212 = mul_sub(t107, t159, t164 * t193);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t213 = neg_mul_add(P::splat(P::lane(t89, 2)), t135, t195);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t214 = P::splat(P::lane(t152, 2)) + t196;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t215 = mul_add(P::splat(P::lane(t89, 0)), t135, t197);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t216 = P::splat(P::lane(t106, 0)) * t186;
+    let t217 = mul_add(P::splat(P::lane(t106, 1)), t199, P::splat(P::lane(t115, 1)));
+    let t218 = t50 * P::splat(P::lane(t75, 0));
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t219 = mul_add(t187, t151 * t187, t121);
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t220 = t200 + t210;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t221 = P::splat(P::lane(t152, 1)) + t204;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t222 = t9 * P::splat(P::lane(t182, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t223 = mul_add(t52, t206, t46);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t224 = neg_mul_add(t56, t175, t157);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t225 = mul_add(t174, t214, mul_add(t156, t194, t147 * t183));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t226 = mul_add(P::splat(P::lane(t104, 0)), t199, P::splat(P::lane(t115, 0)));
+    let t227 = t39 * P::splat(P::lane(t75, 2));
+    let t228 = mul_sub(t44, P::splat(P::lane(t75, 2)), t218);
+    // constant and copied elements
+    let t229 =
+        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t230 = mul_add(t157, t209, mul_add(t142, t189, t135 * t180));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t231 = P::splat(P::lane(t152, 0)) + t213;
+    let t232 = neg_mul_add(P::splat(P::lane(t89, 1)), t142, t215);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t233 = t191 * w(2.0);
+    let t234 = mul_sub(P::splat(P::lane(t104, 1)), t198, t205) + t217;
+    let t235 = P::splat(P::lane(t104, 2)) * t186;
+    let t236 = t9 * P::splat(P::lane(t182, 0));
+    let t237 = mul_add(t12, P::splat(P::lane(t192, 1)), t222);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t238 = mul_add(t54, t206, t51);
+    let t239 = mul_add(t56, t206, t55);
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t240 = w(1.0) / t220;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t241 = t219 + t229;
+    // second moment of payload and platform-side leg ends
+    let t242 = mul_add(t181, t9 * t9, t171 * (t18 * t18));
+    let t243 = mul_add(t181, t9 * t13, t171 * (t18 * t21));
+    let t244 = P::triple([P::lane(t201, 0), P::lane(t202, 0), P::lane(t203, 0)]);
+    let t245 = P::triple([P::lane(t201, 1), P::lane(t202, 1), P::lane(t203, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t246 = P::splat(P::lane(t97, 1)) * t223;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t247 = mul_sub(t50, P::splat(P::lane(t75, 1)), t227);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t248 = neg_mul_add(t110, mul_add(t211, t211, t208), t225);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t249 = mul_add(t224, t224, mul_add(t207, t207, t190 * t190));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t250 = t226 - mul_sub(P::splat(P::lane(t97, 0)), t198, t216);
+    let t251 = neg_mul_add(P::splat(P::lane(t97, 2)), t199, P::splat(P::lane(t115, 2)));
+    let t252 = t44 * P::splat(P::lane(t75, 1));
+    let t253 = mul_add(t12, P::splat(P::lane(t192, 0)), t236);
+    // second moment of payload and platform-side leg ends
+    let t254 = P::triple([P::lane(t201, 2), P::lane(t202, 2), P::lane(t203, 2)]);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t255 = t175 - t230;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t256 = P::splat(P::lane(t152, 2)) + t232;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t257 = t9 * P::splat(P::lane(t182, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t258 = P::splat(P::lane(t106, 0)) * t223;
+    let t259 = mul_add(P::splat(P::lane(t106, 1)), t239, P::splat(P::lane(t115, 1)));
+    let t260 = t56 * P::splat(P::lane(t75, 0));
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t261 = w(1.0) / t241;
+    // second moment of payload and platform-side leg ends
+    let t262 = t244 + t245 + t254;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t263 = t18 * P::splat(P::lane(t182, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t264 = mul_sub(t39, P::splat(P::lane(t75, 0)), t252);
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t265 = neg_mul_add(t170, t172, t131);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t266 = mul_add(t209, t256, mul_add(t189, t231, t180 * t221));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t267 = neg_mul_add(t39, t248, mul_add(t228, t233, t234));
+    let t268 = mul_add(P::splat(P::lane(t106, 2)), t198, t235) + t251;
+    let t269 = mul_add(t12, P::splat(P::lane(t192, 2)), t257);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t270 = mul_add(P::splat(P::lane(t104, 0)), t239, P::splat(P::lane(t115, 0)));
+    let t271 = t52 * P::splat(P::lane(t75, 2));
+    let t272 = mul_sub(t54, P::splat(P::lane(t75, 2)), t260);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t273 = t39 * mul_add(t13, P::splat(P::lane(t212, 1)), t237);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t274 = w(2.0) * t230;
+    let t275 = mul_sub(P::splat(P::lane(t104, 1)), t238, t246) + t259;
+    let t276 = P::splat(P::lane(t104, 2)) * t223;
+    let t277 = t18 * P::splat(P::lane(t182, 0));
+    let t278 = mul_add(t19, P::splat(P::lane(t192, 1)), t263);
+    // second moment of payload and platform-side leg ends
+    let t279 = mul_add(t181, t13 * t13, t171 * (t21 * t21));
+    let t280 = P::lane(t243, 1) + P::lane(t243, 0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t281 = neg_mul_add(t44, t248, mul_add(t233, t247, t250));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t282 = mul_sub(t56, P::splat(P::lane(t75, 1)), t271);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t283 = neg_mul_add(t130, mul_add(t255, t255, t249), t266);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t284 = mul_add(t44, mul_add(t13, P::splat(P::lane(t212, 0)), t253), t273);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t285 = t270 - mul_sub(P::splat(P::lane(t97, 0)), t238, t258);
+    let t286 = neg_mul_add(P::splat(P::lane(t97, 2)), t239, P::splat(P::lane(t115, 2)));
+    let t287 = t54 * P::splat(P::lane(t75, 1));
+    let t288 = mul_add(t19, P::splat(P::lane(t192, 0)), t277);
+    // second moment of payload and platform-side leg ends
+    let t289 = P::triple([P::lane(t262, 1), P::lane(t242, 2), P::lane(t243, 2)]);
+    let t290 = P::triple([c(0.0), P::lane(t242, 1) + P::lane(t242, 0), t280]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t291 = t18 * P::splat(P::lane(t182, 2));
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t292 = neg_mul_add(t154, t187, t121);
+    // second moment of payload and platform-side leg ends
+    let t293 = t289 + t290;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t294 = t240 * t265;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t295 = neg_mul_add(t50, t248, mul_add(t233, t264, t268));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t296 = mul_sub(t52, P::splat(P::lane(t75, 0)), t287);
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t297 = t240 * (t265 * t265);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t298 = mul_add(t50, mul_add(t13, P::splat(P::lane(t212, 2)), t269), t284);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t299 = neg_mul_add(t52, t283, mul_add(t272, t274, t275));
+    let t300 = mul_add(P::splat(P::lane(t106, 2)), t238, t276) + t286;
+    let t301 = mul_add(t19, P::splat(P::lane(t192, 2)), t291);
+    let t302 = t52 * mul_add(t21, P::splat(P::lane(t212, 1)), t278);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t303 = neg_mul_add(t44, t294, t156);
+    let t304 = neg_mul_add(t39, t294, t147);
+    let t305 = neg_mul_add(t50, t294, t174);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t306 = t261 * t292;
+    // mass matrix in base coordinates
+    let t307 = t39 * t297;
+    let t308 = t50 * t297;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t309 = mul_add(t50, t295, mul_add(t44, t281, t39 * t267));
+    let t310 = mul_add(t264, t264, mul_add(t247, t247, t228 * t228));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t311 = neg_mul_add(t54, t283, mul_add(t274, t282, t285));
+    // constant and copied elements
+    let t312 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t313 = mul_sub(t33, t174, t37 * t147);
+    let t314 = mul_sub(t37, t156, t31 * t174);
+    let t315 = mul_sub(t31, t147, t33 * t156);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t316 = mul_sub(t33, t50, t37 * t39);
+    let t317 = mul_sub(t37, t44, t31 * t50);
+    let t318 = mul_sub(t31, t39, t33 * t44);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t319 = mul_add(t54, mul_add(t21, P::splat(P::lane(t212, 0)), t288), t302);
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t320 = t169 - t312;
+    // second moment of payload and platform-side leg ends
+    let t321 = P::triple([P::lane(t262, 2), P::lane(t293, 2), P::lane(t279, 2)]);
+    let t322 = P::triple([c(0.0), c(0.0), P::lane(t279, 1) + P::lane(t279, 0)]);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t323 = neg_mul_add(t54, t306, t189);
+    let t324 = neg_mul_add(t52, t306, t180);
+    let t325 = neg_mul_add(t56, t306, t209);
+    // mass matrix in base coordinates
+    let t326 = t220 * t304;
+    let t327 = t220 * t305;
+    // first moment of payload and platform-side leg ends
+    let t328 = mul_add(t12, t181, t19 * t171);
+    let t329 = mul_add(t9, t181, t18 * t171);
+    let t330 = mul_add(t13, t181, t21 * t171);
+    // constant and copied elements
+    let t331 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    let t332 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t333 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t334 = mul_sub(t200, t309, t265 * t298);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t335 = neg_mul_add(t56, t283, mul_add(t274, t296, t300));
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t336 = mul_sub(t38, t209, t48 * t180);
+    let t337 = mul_sub(t48, t189, t40 * t209);
+    let t338 = mul_sub(t40, t180, t38 * t189);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t339 = neg_mul_add(t294, t316, t313);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t340 = mul_sub(t38, t56, t48 * t52);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t341 = neg_mul_add(t294, t317, t314);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t342 = mul_sub(t48, t54, t40 * t56);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t343 = neg_mul_add(t294, t318, t315);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t344 = mul_sub(t40, t52, t38 * t54);
+    // second moment of payload and platform-side leg ends
+    let t345 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t346 = mul_add(t56, mul_add(t21, P::splat(P::lane(t212, 2)), t301), t319);
+    // mass matrix in base coordinates
+    let t347 = mul_sub(t303, t220 * t303, t44 * (t44 * t297));
+    let t348 = t297 * t316;
+    let t349 = t297 * t317;
+    let t350 = t297 * t318;
+    let t351 = t241 * t324;
+    let t352 = t241 * t325;
+    // constant and copied elements
+    let t353 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t354 = t261 * (t292 * t292);
+    // second moment of payload and platform-side leg ends
+    let t355 = t345 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t356 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t357 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t358 = mul_add(t210, mul_add(t310, t331, t309), t334);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t359 = mul_add(t56, t335, mul_add(t54, t311, t52 * t299));
+    let t360 = mul_add(t296, t296, mul_add(t282, t282, t272 * t272));
+    // constant and copied elements
+    let t361 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t362 = neg_mul_add(t306, t340, t336);
+    let t363 = neg_mul_add(t306, t342, t337);
+    let t364 = neg_mul_add(t306, t344, t338);
+    // mass matrix in base coordinates
+    let t365 = t220 * t339;
+    let t366 = t220 * t341;
+    let t367 = t220 * t343;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t368 = t265 * t281;
+    let t369 = t265 * t267;
+    let t370 = t265 * t295;
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t371 = t206 - t361;
+    // mass matrix in base coordinates
+    let t372 = mul_add(t324, t351, mul_sub(t304, t326, t39 * t307));
+    let t373 = mul_add(t325, t352, mul_sub(t305, t327, t50 * t308));
+    // second moment of payload and platform-side leg ends
+    let t374 = P::triple([P::lane(t262, 0), P::lane(t293, 1), P::lane(t321 + t322, 2)]);
+    // mass matrix in base coordinates
+    let t375 = t52 * t354;
+    let t376 = mul_add(t323, t351, mul_sub(t303, t326, t44 * t307));
+    let t377 = t56 * t354;
+    let t378 = mul_add(t323, t352, mul_sub(t303, t327, t44 * t308));
+    let t379 = mul_add(t324, t352, mul_sub(t304, t327, t39 * t308));
+    // first moment of payload and platform-side leg ends
+    let t380 = P::triple([P::lane(t328, 0), P::lane(t329, 0), P::lane(t330, 0)]);
+    let t381 = P::triple([P::lane(t328, 1), P::lane(t329, 1), P::lane(t330, 1)]);
+    // second moment of payload and platform-side leg ends
+    let t382 = P::triple([P::lane(t262, 1), P::lane(t293, 2), P::lane(t262, 2)]);
+    // constant and copied elements
+    let t383 =
+        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    let t384 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    let t385 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // mass of payload and platform-side leg ends
+    let t386 = t171 + t181;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t387 = mul_sub(t219, t359, t292 * t346);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t388 = neg_mul_add(t191, t353, neg_mul_add(t320, t332, t333)) - t358;
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t389 = t33 * t370;
+    let t390 = t37 * t368;
+    let t391 = t31 * t369;
+    // mass matrix in base coordinates
+    let t392 = t241 * t362;
+    let t393 = t241 * t363;
+    let t394 = t241 * t364;
+    let t395 = mul_sub(t54, t54 * t354, mul_add(t323, t241 * t323, t347));
+    let t396 = mul_sub(t52, t375, t372);
+    let t397 = mul_sub(t56, t377, t373);
+    // first moment of payload and platform-side leg ends
+    let t398 = P::triple([P::lane(t328, 2), P::lane(t329, 2), P::lane(t330, 2)]);
+    // constant and copied elements
+    let t399 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t400 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // mass matrix in base coordinates
+    let t401 = mul_sub(t54, t375, t376);
+    let t402 = mul_sub(t54, t377, t378);
+    let t403 = mul_sub(t52, t377, t379);
+    // second moment of payload and platform-side leg ends
+    let t404 = mul_add(P::splat(t355), w(0.5), t374) - t400;
+    // constant and copied elements
+    let t405 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    let t406 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // mass matrix in base coordinates
+    let t407 = mul_add(t324, t392, mul_sub(t304, t365, t39 * t348));
+    let t408 = mul_add(t324, t393, mul_sub(t304, t366, t39 * t349));
+    let t409 = mul_add(t324, t394, mul_sub(t304, t367, t39 * t350));
+    // second moment of payload and platform-side leg ends
+    let t410 = mul_add(t356 * t357, P::splat(parameters.payload_mass), t382) - t405;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t411 = mul_add(t229, mul_add(t360, t383, t359), t387);
+    // mass matrix in base coordinates
+    let t412 = t340 * t354;
+    let t413 = t342 * t354;
+    let t414 = t344 * t354;
+    let t415 = mul_add(t323, t392, mul_sub(t303, t365, t44 * t348));
+    let t416 = mul_add(t323, t393, mul_sub(t303, t366, t44 * t349));
+    let t417 = mul_add(t323, t394, mul_sub(t303, t367, t44 * t350));
+    // first moment of payload and platform-side leg ends
+    let t418 = mul_add(P::splat(parameters.payload_mass), t399, t380 + t381 + t398);
+    // second moment of payload and platform-side leg ends
+    let t419 = mul_add(P::splat(parameters.payload_mass), t399 * t399, t404);
+    // wrench left at the trial acceleration
+    let t420 = mul_sub(t37, t369, mul_add(t313, t388, t389));
+    let t421 = mul_sub(t31, t370, mul_add(t314, t388, t390));
+    let t422 = mul_sub(t33, t368, mul_add(t315, t388, t391));
+    // mass matrix in base coordinates
+    let t423 = mul_sub(t52, t412, t407);
+    let t424 = mul_sub(t52, t413, t408);
+    let t425 = mul_sub(t52, t414, t409);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t426 = neg_mul_add(t230, t406, neg_mul_add(t371, t384, t385)) - t411;
+    // first moments by platform coordinate of the payload's inertia force
+    let t427 = t182 * P::splat(P::lane(t410, 0));
+    // inertia less external wrench that the actuators must balance
+    let t428 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t429 = mul_sub(t54, t412, t415);
+    let t430 = mul_sub(t54, t413, t416);
+    let t431 = mul_sub(t54, t414, t417);
+    let t432 = P::triple([P::lane(t395, 0), P::lane(t396, 0), P::lane(t397, 0)]);
+    let t433 = P::triple([P::lane(t395, 1), P::lane(t396, 1), P::lane(t397, 1)]);
+    let t434 = mul_add(t325, t392, mul_sub(t305, t365, t50 * t348));
+    let t435 = mul_add(t325, t393, mul_sub(t305, t366, t50 * t349));
+    let t436 = mul_add(t325, t394, mul_sub(t305, t367, t50 * t350));
+    // mass of payload and platform-side leg ends
+    let t437 = P::lane(t386, 2) + (P::lane(t386, 1) + P::lane(t386, 0));
+    // mass matrix in base coordinates
+    let t438 = P::triple([P::lane(t403, 0), P::lane(t402, 0), P::lane(t401, 0)]);
+    let t439 = P::triple([P::lane(t403, 1), P::lane(t402, 1), P::lane(t401, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t440 = t292 * t311;
+    let t441 = t292 * t299;
+    let t442 = t292 * t335;
+    // first moments by platform coordinate of the payload's inertia force
+    let t443 = mul_add(t192, P::splat(P::lane(t419, 0)), t427);
+    // inertia less external wrench that the actuators must balance
+    let t444 = mul_add(t2, P::splat(external_wrench[0]), t428);
+    // mass matrix in base coordinates
+    let t445 = P::triple([P::lane(t395, 2), P::lane(t396, 2), P::lane(t397, 2)]);
+    // mass of payload and platform-side leg ends
+    let t446 = parameters.payload_mass + t437;
+    // mass matrix in base coordinates
+    let t447 = P::triple([P::lane(t403, 2), P::lane(t402, 2), P::lane(t401, 2)]);
+    let t448 = mul_sub(t56, t412, t434);
+    let t449 = mul_sub(t56, t413, t435);
+    let t450 = mul_sub(t56, t414, t436);
+    let t451 = t438 + t439 + t447;
+    let t452 = P::lane(t14, 2) * P::lane(t418, 1);
+    // wrench left at the trial acceleration
+    let t453 = mul_add(t189, t426, mul_add(t156, t388, t368));
+    let t454 = mul_add(t180, t426, mul_add(t147, t388, t369));
+    let t455 = mul_add(t209, t426, mul_add(t174, t388, t370));
+    let t456 = mul_add(t38, t442, mul_sub(t336, t426, t420));
+    let t457 = mul_add(t48, t440, mul_sub(t337, t426, t421));
+    let t458 = mul_add(t40, t441, mul_sub(t338, t426, t422));
+    // mass matrix in base coordinates
+    let t459 = P::triple([P::lane(t423, 0), P::lane(t424, 0), P::lane(t425, 0)]);
+    let t460 = P::triple([P::lane(t423, 1), P::lane(t424, 1), P::lane(t425, 1)]);
+    let t461 = P::lane(t14, 0) * P::lane(t418, 1);
+    // first moments by platform coordinate of the payload's inertia force
+    let t462 = mul_add(t212, P::splat(P::lane(t410, 2)), t443);
+    // inertia less external wrench that the actuators must balance
+    let t463 = mul_add(t5, P::splat(external_wrench[2]), t444);
+    // mass matrix in base coordinates
+    let t464 = P::splat(t446) - (t432 + t433 + t445);
+    // first moments by platform coordinate of the payload's inertia force
+    let t465 = t182 * P::splat(P::lane(t419, 1));
+    // mass matrix in base coordinates
+    let t466 = P::triple([P::lane(t429, 0), P::lane(t430, 0), P::lane(t431, 0)]);
+    let t467 = P::triple([P::lane(t429, 1), P::lane(t430, 1), P::lane(t431, 1)]);
+    let t468 = mul_add(t362, t392, mul_sub(t339, t365, t316 * t348));
+    let t469 = mul_add(t363, t393, mul_sub(t341, t366, t317 * t349));
+    let t470 = mul_add(t364, t394, mul_sub(t343, t367, t318 * t350));
+    let t471 = P::mul_add(P::lane(t15, 2), P::lane(t418, 0), t452);
+    let t472 = P::lane(t14, 1) * P::lane(t418, 1);
+    let t473 = P::triple([P::lane(t423, 2), P::lane(t424, 2), P::lane(t425, 2)]);
+    let t474 = mul_add(t362, t393, mul_sub(t339, t366, t316 * t349));
+    let t475 = mul_add(t362, t394, mul_sub(t339, t367, t316 * t350));
+    let t476 = mul_add(t363, t394, mul_sub(t341, t367, t317 * t350));
+    let t477 = P::mul_add(P::lane(t15, 0), P::lane(t418, 0), t461);
+    // wrench left at the trial acceleration
+    let t478 = mul_add(t292, t311, t453);
+    let t479 = mul_add(t292, t299, t454);
+    let t480 = mul_add(t292, t335, t455);
+    let t481 = mul_sub(t48, t441, t456);
+    let t482 = mul_sub(t40, t442, t457);
+    let t483 = mul_sub(t38, t440, t458);
+    // mass matrix in base coordinates
+    let t484 = t459 + t460 + t473;
+    // first moments by platform coordinate of the payload's inertia force
+    let t485 = mul_add(t192, P::splat(P::lane(t410, 0)), t465);
+    // mass matrix in base coordinates
+    let t486 = P::triple([P::lane(t429, 2), P::lane(t430, 2), P::lane(t431, 2)]);
+    let t487 = P::mul_add(P::lane(t15, 1), P::lane(t418, 0), t472);
+    let t488 = t466 + t467 + t486;
+    let t489 = P::triple([P::lane(t448, 0), P::lane(t449, 0), P::lane(t450, 0)]);
+    let t490 = P::triple([P::lane(t448, 1), P::lane(t449, 1), P::lane(t450, 1)]);
+    let t491 = mul_sub(t340, t412, t468);
+    let t492 = mul_sub(t342, t413, t469);
+    let t493 = mul_sub(t344, t414, t470);
+    let t494 = t14 * P::splat(P::lane(t410, 0));
+    let t495 = P::triple([P::lane(t451, 2), P::lane(t451, 2), P::lane(t451, 0)]);
+    let t496 = P::triple([P::lane(t451, 1), P::lane(t451, 0), P::lane(t451, 1)]);
+    let t497 = P::mul_add(P::lane(t17, 2), P::lane(t418, 2), t471);
+    let t498 = mul_sub(t340, t413, t474);
+    let t499 = mul_sub(t340, t414, t475);
+    let t500 = mul_sub(t342, t414, t476);
+    // acceleration that removes the residual wrench
+    let t501 = mul_add(t495, t496, t451 * t464);
+    // mass matrix in base coordinates
+    let t502 = P::mul_add(P::lane(t17, 0), P::lane(t418, 2), t477);
+    // first moments by platform coordinate of the payload's inertia force
+    let t503 = mul_add(t212, P::splat(P::lane(t410, 1)), t485);
+    // inertia less external wrench that the actuators must balance
+    let t504 = P::triple([P::lane(t463, 1), P::lane(t463, 2), P::lane(t463, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t505 = P::triple([P::lane(t462, 1), P::lane(t462, 2), P::lane(t462, 0)]);
+    // mass matrix in base coordinates
+    let t506 = P::triple([P::lane(t448, 2), P::lane(t449, 2), P::lane(t450, 2)]);
+    let t507 = mul_add(t15, P::splat(P::lane(t419, 0)), t494);
+    let t508 = P::mul_add(P::lane(t17, 1), P::lane(t418, 2), t487);
+    // first moments by platform coordinate of the payload's inertia force
+    let t509 = t182 * P::splat(P::lane(t410, 1));
+    // inertia less external wrench that the actuators must balance
+    let t510 = neg_mul_add(P::splat(parameters.payload_com[0]), t504, t505);
+    // mass matrix in base coordinates
+    let t511 = t489 + t490 + t506;
+    let t512 = t14 * P::splat(P::lane(t419, 1));
+    let t513 = t497 + P::lane(t484, 0);
+    let t514 = P::triple([P::lane(t464, 1), P::lane(t464, 0), P::lane(t464, 1)]);
+    let t515 = P::triple([P::lane(t464, 2), P::lane(t464, 2), P::lane(t464, 0)]);
+    // wrench left at the trial acceleration
+    let t516 = P::triple([P::lane(t478, 0), P::lane(t479, 0), P::lane(t480, 0)]);
+    let t517 = P::triple([P::lane(t478, 1), P::lane(t479, 1), P::lane(t480, 1)]);
+    let t518 = P::triple([P::lane(t481, 0), P::lane(t482, 0), P::lane(t483, 0)]);
+    let t519 = P::triple([P::lane(t481, 1), P::lane(t482, 1), P::lane(t483, 1)]);
+    // acceleration that removes the residual wrench
+    let t520 = mul_sub(t514, t515, t451 * t451);
+    // first moments by platform coordinate of the payload's inertia force
+    let t521 = mul_add(t192, P::splat(P::lane(t410, 2)), t509);
+    // mass matrix in base coordinates
+    let t522 = mul_add(t17, P::splat(P::lane(t410, 2)), t507);
+    let t523 = mul_add(t15, P::splat(P::lane(t410, 0)), t512);
+    let t524 = P::triple([P::lane(t491, 0), P::lane(t492, 0), P::lane(t493, 0)]);
+    let t525 = P::triple([P::lane(t491, 1), P::lane(t492, 1), P::lane(t493, 1)]);
+    let t526 = t14 * P::splat(P::lane(t410, 1));
+    let t527 = t497 - P::lane(t488, 1);
+    let t528 = P::triple([-t513, -P::lane(t484, 1), t502 - P::lane(t484, 2)]);
+    // wrench left at the trial acceleration
+    let t529 = P::triple([P::lane(t478, 2), P::lane(t479, 2), P::lane(t480, 2)]);
+    let t530 = P::triple([P::lane(t481, 2), P::lane(t482, 2), P::lane(t483, 2)]);
+    // mass matrix in base coordinates
+    let t531 = P::triple([P::lane(t500, 0), P::lane(t499, 0), P::lane(t498, 0)]);
+    let t532 = P::triple([P::lane(t500, 1), P::lane(t499, 1), P::lane(t498, 1)]);
+    // acceleration that removes the residual wrench
+    let t533 = P::splat(P::lane(t501, 2)) * t528;
+    // mass matrix in base coordinates
+    let t534 = -P::lane(t488, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t535 = mul_add(t212, P::splat(P::lane(t419, 2)), t521);
+    let t536 = P::triple([P::lane(t503, 1), P::lane(t503, 2), P::lane(t503, 0)]);
+    // mass matrix in base coordinates
+    let t537 = P::triple([P::lane(t491, 2), P::lane(t492, 2), P::lane(t493, 2)]);
+    let t538 = mul_add(t17, P::splat(P::lane(t410, 1)), t523);
+    let t539 = mul_add(t15, P::splat(P::lane(t410, 2)), t526);
+    let t540 = P::triple([t534, t527, -(P::lane(t488, 2) + t508)]);
+    // inertia less external wrench that the actuators must balance
+    let t541 = neg_mul_add(P::splat(parameters.payload_com[1]), t504, t536);
+    let t542 = P::triple([P::lane(t510, 1), P::lane(t510, 2), P::lane(t510, 0)]);
+    // mass matrix in base coordinates
+    let t543 = P::lane(t419, 2) + (P::lane(t419, 0) + P::lane(t419, 1));
+    let t544 = P::triple([P::lane(t500, 2), P::lane(t499, 2), P::lane(t498, 2)]);
+    // acceleration that removes the residual wrench
+    let t545 = mul_add(P::splat(P::lane(t520, 0)), t540, t533);
+    // mass matrix in base coordinates
+    let t546 = t508 - P::lane(t511, 0);
+    // wrench left at the trial acceleration
+    let t547 = neg_mul_add(t192, P::splat(P::lane(t418, 0)), t516 + t517 + t529);
+    // mass matrix in base coordinates
+    let t548 = -(t502 + P::lane(t511, 1));
+    let t549 = mul_add(t17, P::splat(P::lane(t419, 2)), t539);
+    // rotation of the platform seen from the base
+    let t550 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t551 = P::triple([P::lane(t522, 1), P::lane(t522, 0), P::lane(t522, 0)]);
+    let t552 = P::triple([t546, t548, -P::lane(t511, 2)]);
+    // rotation of the platform seen from the base
+    let t553 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration that removes the residual wrench
+    let t554 = mul_add(P::splat(P::lane(t501, 1)), t552, t545);
+    let t555 = t528 * P::splat(P::lane(t520, 1));
+    // wrench left at the trial acceleration
+    let t556 = neg_mul_add(t182, P::splat(P::lane(t418, 1)), t547);
+    let t557 = mul_sub(t510, t553, mul_add(t140, t542, t518 + t519 + t530));
+    // acceleration that removes the residual wrench
+    let t558 = P::lane(t451, 2) * P::lane(t501, 2);
+    // mass matrix in base coordinates
+    let t559 = mul_add(t15, t522, t524 + t525 + t537 - P::splat(t543));
+    // first moments by platform coordinate of the payload's inertia force
+    let t560 = P::triple([P::lane(t535, 1), P::lane(t535, 2), P::lane(t535, 0)]);
+    // rotation of the platform seen from the base
+    let t561 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t562 = P::triple([P::lane(t538, 1), P::lane(t538, 0), P::lane(t538, 0)]);
+    // acceleration that removes the residual wrench
+    let t563 = mul_add(P::splat(P::lane(t501, 2)), t540, t555);
+    // inertia less external wrench that the actuators must balance
+    let t564 = neg_mul_add(P::splat(parameters.payload_com[2]), t504, t560);
+    let t565 = P::triple([P::lane(t541, 1), P::lane(t541, 2), P::lane(t541, 0)]);
+    // mass matrix in base coordinates
+    let t566 = mul_add(t561, t562, mul_add(t550, t551, t531 + t532 + t544));
+    // acceleration that removes the residual wrench
+    let t567 = t528 * P::splat(P::lane(t501, 0));
+    let t568 = P::mul_sub(P::lane(t464, 0), P::lane(t520, 0), t558);
+    // rotation of the platform seen from the base
+    let t569 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t570 = mul_add(t552, P::splat(P::lane(t501, 0)), t563);
+    // mass matrix in base coordinates
+    let t571 = P::triple([P::lane(t549, 1), P::lane(t549, 0), P::lane(t549, 0)]);
+    // acceleration that removes the residual wrench
+    let t572 = mul_add(t540, P::splat(P::lane(t501, 1)), t567);
+    // rotation of the platform seen from the base
+    let t573 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t574 = mul_add(t569, t571, t566);
+    // acceleration that removes the residual wrench
+    let t575 = P::neg_mul_add(P::lane(t451, 1), P::lane(t501, 1), t568);
+    // mass matrix in base coordinates
+    let t576 = P::triple([t527, t534, t534]);
+    // acceleration that removes the residual wrench
+    let t577 = P::triple([P::lane(t554, 2), P::lane(t554, 2), P::lane(t554, 1)]);
+    // wrench left at the trial acceleration
+    let t578 = t463 + neg_mul_add(t212, P::splat(P::lane(t418, 2)), t556);
+    let t579 = mul_add(t541, t573, neg_mul_add(t134, t565, t557));
+    // mass matrix in base coordinates
+    let t580 = mul_add(t17, t549, mul_add(t14, t538, t559));
+    // acceleration that removes the residual wrench
+    let t581 = mul_add(t552, P::splat(P::lane(t520, 2)), t572);
+    // inertia less external wrench that the actuators must balance
+    let t582 = P::triple([P::lane(t564, 1), P::lane(t564, 2), P::lane(t564, 0)]);
+    // acceleration that removes the residual wrench
+    let t583 = mul_add(t574, P::splat(t575), t576 * t577);
+    // mass matrix in base coordinates
+    let t584 = P::triple([P::lane(t484, 1), t513, t513]);
+    // acceleration that removes the residual wrench
+    let t585 = P::triple([P::lane(t570, 2), P::lane(t570, 2), P::lane(t570, 1)]);
+    // rotation of the platform seen from the base
+    let t586 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t587 = P::triple([P::lane(t578, 1), P::lane(t578, 2), P::lane(t578, 0)]);
+    // acceleration that removes the residual wrench
+    let t588 = P::triple([P::lane(t501, 2), P::lane(t501, 0), P::lane(t501, 1)]);
+    // wrench left at the trial acceleration
+    let t589 = mul_add(t564, t586, neg_mul_add(t155, t582, t579));
+    // acceleration that removes the residual wrench
+    let t590 = mul_add(t528, t570, mul_add(P::splat(t575), t580, t540 * t554));
+    // mass matrix in base coordinates
+    let t591 = P::triple([t548, t546, t546]);
+    // acceleration that removes the residual wrench
+    let t592 = P::triple([P::lane(t581, 2), P::lane(t581, 2), P::lane(t581, 1)]);
+    // wrench left at the trial acceleration
+    let t593 = P::triple([P::lane(t578, 2), P::lane(t578, 0), P::lane(t578, 1)]);
+    // acceleration that removes the residual wrench
+    let t594 = P::triple([P::lane(t501, 1), P::lane(t501, 2), P::lane(t501, 0)]);
+    let t595 = mul_add(t591, t592, neg_mul_add(t584, t585, t583));
+    // wrench left at the trial acceleration
+    let t596 = mul_add(t2, P::splat(external_wrench[3]), t589);
+    // acceleration that removes the residual wrench
+    let t597 = mul_add(t552, t581, t590);
+    let t598 = mul_add(t593, t594, mul_add(t520, t578, t587 * t588));
+    // wrench left at the trial acceleration
+    let t599 = mul_add(t1, P::splat(external_wrench[4]), t596);
+    // acceleration that removes the residual wrench
+    let t600 = P::triple([P::lane(t595, 1), P::lane(t595, 0), P::lane(t595, 1)]);
+    let t601 = P::triple([P::lane(t595, 2), P::lane(t595, 2), P::lane(t595, 0)]);
+    // wrench left at the trial acceleration
+    let t602 = mul_add(t5, P::splat(external_wrench[5]), t599);
+    // acceleration that removes the residual wrench
+    let t603 = mul_sub(t600, t601, t595 * t597);
+    let t604 = P::triple([P::lane(t597, 1), P::lane(t597, 0), P::lane(t597, 1)]);
+    let t605 = mul_sub(P::splat(t575), t602, t540 * P::splat(P::lane(t598, 0)));
+    let t606 = P::triple([P::lane(t597, 2), P::lane(t597, 2), P::lane(t597, 0)]);
+    let t607 = mul_sub(t604, t606, t595 * t595);
+    let t608 = P::triple([P::lane(t554, 0), P::lane(t570, 0), P::lane(t581, 0)]);
+    let t609 = P::triple([P::lane(t554, 1), P::lane(t570, 1), P::lane(t581, 1)]);
+    let t610 = neg_mul_add(t528, P::splat(P::lane(t598, 1)), t605);
+    let t611 = P::triple([P::lane(t554, 2), P::lane(t570, 2), P::lane(t581, 2)]);
+    let t612 = P::lane(t595, 2) * P::lane(t603, 2);
+    let t613 = P::triple([P::lane(t603, 2), P::lane(t603, 0), P::lane(t603, 1)]);
+    let t614 = P::triple([P::lane(t603, 1), P::lane(t603, 2), P::lane(t603, 0)]);
+    // constant and copied elements
+    let t615 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t616 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t617 = P::mul_add(P::lane(t597, 0), P::lane(t607, 0), t612);
+    let t618 = neg_mul_add(t552, P::splat(P::lane(t598, 2)), t610);
+    // constant and copied elements
+    let t619 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
+    let t620 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t621 = c(1.0) / P::mul_add(P::lane(t595, 1), P::lane(t603, 1), t617);
+    let t622 = P::triple([P::lane(t618, 1), P::lane(t618, 2), P::lane(t618, 0)]);
+    let t623 = P::triple([P::lane(t618, 2), P::lane(t618, 0), P::lane(t618, 1)]);
+    let t624 = mul_add(t614, t623, mul_add(t607, t618, t613 * t622));
+    let t625 = P::splat(t621) * t624;
+    let t626 = mul_add(t608, P::splat(P::lane(t625, 0)), t598);
+    // platform acceleration v_p'
+    let t627 = t615 * P::splat(P::lane(t625, 1));
+    // acceleration that removes the residual wrench
+    let t628 = mul_add(t609, P::splat(P::lane(t625, 1)), t626);
+    // platform acceleration v_p'
+    let t629 = mul_add(t616, P::splat(P::lane(t625, 0)), t627);
+    // acceleration that removes the residual wrench
+    let t630 = mul_add(t611, P::splat(P::lane(t625, 2)), t628);
+    // platform acceleration v_p'
+    let t631 = mul_add(t620, P::splat(P::lane(t625, 2)), t629);
+    // acceleration that removes the residual wrench
+    let t632 = P::splat(c(1.0) / t575) * t630;
+    // platform acceleration v_p'
+    let t633 = t615 * P::splat(P::lane(t632, 1));
+    let t634 = mul_add(t616, P::splat(P::lane(t632, 0)), t633);
+    let t635 = mul_add(t620, P::splat(P::lane(t632, 2)), t619) + t634;
+    forward_dynamics[0] = P::lane(t635, 0);
+    forward_dynamics[1] = P::lane(t635, 1);
+    forward_dynamics[2] = P::lane(t635, 2);
+    forward_dynamics[3] = -P::lane(t631, 0);
+    forward_dynamics[4] = -P::lane(t631, 1);
+    forward_dynamics[5] = -P::lane(t631, 2);
 }

@@ -802,20 +802,15 @@ impl crate::kernels::Matrices for Ups {
         coriolis_matrix_b: &mut [[f64; 6]; 6],
         jacobian_db: &mut [[f64; 6]; 6],
     ) {
-        self::matrices(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            mass_matrix_p,
-            coriolis_matrix_p,
-            jacobian_dp,
-            mass_matrix_b,
-            coriolis_matrix_b,
-            jacobian_db,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            matrices_in_lanes, matrices; parameters : Parameters < f64 >, base_position :
+            [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6],
+            platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; mass_matrix_p : [[f64; 6]; 6],
+            coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_b
+            : [[f64; 6]; 6], coriolis_matrix_b : [[f64; 6]; 6], jacobian_db : [[f64; 6];
+            6]
         );
     }
 }
@@ -936,18 +931,14 @@ impl crate::kernels::InverseDynamics for Ups {
         external_wrench: &[f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::inverse_dynamics(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            inverse_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            inverse_dynamics_in_lanes, inverse_dynamics; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6];
+            inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -964,15 +955,12 @@ impl crate::kernels::ActuatorGeometry for Ups {
         actuator_length: &mut [f64; 6],
         jacobian_dp: &mut [[f64; 6]; 6],
     ) {
-        self::actuator_geometry(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            platform_position,
-            platform_rotation,
-            rod_alignment,
-            actuator_length,
-            jacobian_dp,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            actuator_geometry_in_lanes, actuator_geometry; parameters : Parameters < f64
+            >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3], platform_position
+            : [f64; 3], platform_rotation : [[f64; 3]; 3]; rod_alignment : [f64; 6],
+            actuator_length : [f64; 6], jacobian_dp : [[f64; 6]; 6]
         );
     }
 }
@@ -997,23 +985,15 @@ impl crate::kernels::Control for Ups {
         total_bias: &mut [f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::control(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            actuator_length,
-            actuator_velocity,
-            jacobian_dp,
-            mass_matrix_p,
-            total_bias,
-            inverse_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            control_in_lanes, control; parameters : Parameters < f64 >, base_position :
+            [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6],
+            base_acceleration : [f64; 6], platform_position : [f64; 3], platform_rotation
+            : [[f64; 3]; 3], platform_velocity : [f64; 6], platform_acceleration : [f64;
+            6], external_wrench : [f64; 6]; actuator_length : [f64; 6], actuator_velocity
+            : [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -1097,18 +1077,14 @@ impl crate::kernels::ForwardDynamics for Ups {
         external_wrench: &[f64; 6],
         forward_dynamics: &mut [f64; 6],
     ) {
-        self::forward_dynamics(
-            &self.parameters,
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            actuator_force,
-            external_wrench,
-            forward_dynamics,
+        let parameters = &self.parameters;
+        crate::single_state!(
+            forward_dynamics_in_lanes, forward_dynamics; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; forward_dynamics :
+            [f64; 6]
         );
     }
 }
@@ -25756,4 +25732,4963 @@ pub fn energy<T: Scalar>(
     let t632 = mul_add(parameters.gravity[2], t561, t631);
     let t633 = mul_add(parameters.payload_mass, t615, t632);
     *potential_energy = mul_sub(c(0.5), mul_add(t493, t494, t551) + t612, t633);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t203, t205, t207, t256, t257, t258, t598, t605, t711, t712, t713, t718, t724, t725, t726,
+        t733, t743, t744, t745, t750, t751, t752, t832, t847, t849, t862, t874, t875, t906, t913,
+        t914, t915, t916, t917, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928,
+        t929, t930, t931, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t943, t944,
+        t946, t947, t948, t949, t950, t951, t952, t953, t954, t955, t956,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 =
+            P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 =
+            P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        let t15 =
+            P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 =
+            P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        let t21 =
+            P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        let t22 =
+            P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        let t23 =
+            P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t27 = t20 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t28 = mul_add(t14, P::splat(P::lane(t17, 0)), t25);
+        let t29 = t11 * P::splat(P::lane(t16, 2));
+        let t30 = mul_add(t14, P::splat(P::lane(t17, 1)), t26);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t31 = t20 * P::splat(P::lane(t16, 0));
+        let t32 = mul_add(t21, P::splat(P::lane(t17, 1)), t27);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t33 = mul_add(t14, P::splat(P::lane(t17, 2)), t29);
+        let t34 = mul_add(t15, P::splat(P::lane(t19, 0)), t28);
+        let t35 = mul_add(t15, P::splat(P::lane(t19, 1)), t30);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t36 = mul_add(t21, P::splat(P::lane(t17, 0)), t31);
+        let t37 = t20 * P::splat(P::lane(t16, 2));
+        let t38 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t15, P::splat(P::lane(t19, 2)), t33);
+        // constant and copied elements
+        let t40 =
+            P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t22, P::splat(P::lane(t19, 0)), t36);
+        let t42 = mul_add(t21, P::splat(P::lane(t17, 2)), t37);
+        // legs 1, 2, 3: platform joint from the base point
+        let t43 = t34 + P::splat(P::lane(t24, 0)) - t40;
+        let t44 = P::splat(P::lane(t24, 1)) + t35 - t23;
+        // constant and copied elements
+        let t45 =
+            P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        let t46 =
+            P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t47 = mul_add(t22, P::splat(P::lane(t19, 2)), t42);
+        // legs 4, 5, 6: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t38 - t45;
+        // legs 1, 2, 3: platform joint from the base point
+        let t49 = P::splat(P::lane(t24, 2)) + t39 - t46;
+        // constant and copied elements
+        let t50 =
+            P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        let t51 =
+            P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t41 - t50;
+        // angular velocity of the base
+        let t53 = t1 * P::splat(base_velocity[4]);
+        // velocity of the platform origin relative to the base
+        let t54 = platform_velocity[1] - base_velocity[1];
+        let t55 = platform_velocity[0] - base_velocity[0];
+        let t56 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: platform joint from the base point
+        let t57 = P::splat(P::lane(t24, 2)) + t47 - t51;
+        // angular velocity of the base
+        let t58 = mul_add(t2, P::splat(base_velocity[3]), t53);
+        // angular velocity of the platform
+        let t59 = t1 * P::splat(platform_velocity[4]);
+        // platform origin seen from the base
+        let t60 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t61 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // constant and copied elements
+        let t62 =
+            P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+        // legs 1, 2, 3: actuator length d
+        let t63 = sqrt(mul_add(t49, t49, mul_add(t43, t43, t44 * t44)));
+        // angular velocity of the base
+        let t64 = mul_add(t5, P::splat(base_velocity[5]), t58);
+        // velocity of the platform origin relative to the base
+        let t65 = mul_add(t2, P::splat(t55), t1 * P::splat(t54));
+        // angular velocity of the platform
+        let t66 = mul_add(t2, P::splat(platform_velocity[3]), t59);
+        // constant and copied elements
+        let t67 =
+            P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+        // legs 4, 5, 6: actuator length d
+        let t68 = sqrt(mul_add(t57, t57, mul_add(t52, t52, t48 * t48)));
+        // legs 1, 2, 3: first moment of the lower part about the base joint
+        let t69 = t62 * t67;
+        // angular velocity of the platform
+        let t70 = mul_add(t5, P::splat(platform_velocity[5]), t66);
+        // constant and copied elements
+        let t71 =
+            P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t72 = P::splat(platform_rotation[0][1]) * t11;
+        let t73 = P::splat(platform_rotation[1][1]) * t11;
+        // angular velocity of the base
+        let t74 = P::triple([P::lane(t64, 1), P::lane(t64, 2), P::lane(t64, 0)]);
+        let t75 = P::triple([P::lane(t64, 2), P::lane(t64, 0), P::lane(t64, 1)]);
+        // velocity of the platform origin relative to the base
+        let t76 = neg_mul_add(t60, t74, mul_add(t5, P::splat(t56), t65));
+        // angular velocity of the platform relative to the base
+        let t77 = t64 - t70;
+        // constant and copied elements
+        let t78 =
+            P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t79 = P::splat(base_rotation[1][1]) * t23;
+        let t80 = P::splat(base_rotation[0][1]) * t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t81 = P::splat(platform_rotation[2][1]) * t11;
+        // velocity of the platform origin relative to the base
+        let t82 = mul_add(t61, t75, t76);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t83 = P::splat(base_rotation[2][1]) * t23;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t84 = neg_mul_add(t39, P::splat(P::lane(t77, 1)), P::splat(P::lane(t82, 0)));
+        // legs 1, 2, 3: reciprocal of the actuator length
+        let t85 = w(1.0) / t63;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t86 = neg_mul_add(t47, P::splat(P::lane(t77, 1)), P::splat(P::lane(t82, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t87 = neg_mul_add(t34, P::splat(P::lane(t77, 2)), P::splat(P::lane(t82, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t88 = neg_mul_add(t41, P::splat(P::lane(t77, 2)), P::splat(P::lane(t82, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t89 = neg_mul_add(t35, P::splat(P::lane(t77, 0)), P::splat(P::lane(t82, 2)));
+        // legs 4, 5, 6: reciprocal of the actuator length
+        let t90 = w(1.0) / t68;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t91 = neg_mul_add(t38, P::splat(P::lane(t77, 0)), P::splat(P::lane(t82, 2)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t92 = mul_add(t35, P::splat(P::lane(t77, 2)), t84);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t93 = mul_add(P::splat(platform_rotation[0][0]), t14, t72);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t94 = mul_add(t38, P::splat(P::lane(t77, 2)), t86);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t95 = mul_add(t39, P::splat(P::lane(t77, 0)), t87);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t96 = mul_add(t47, P::splat(P::lane(t77, 0)), t88);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t97 = mul_add(t34, P::splat(P::lane(t77, 1)), t89);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t98 = mul_add(P::splat(platform_rotation[1][0]), t14, t73);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t99 = mul_add(t41, P::splat(P::lane(t77, 1)), t91);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t100 = mul_add(t49, P::splat(P::lane(t64, 1)), t92);
+        // constant and copied elements
+        let t101 =
+            P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t102 = mul_add(t57, P::splat(P::lane(t64, 1)), t94);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t103 = mul_add(t43, P::splat(P::lane(t64, 2)), t95);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t104 = mul_add(t52, P::splat(P::lane(t64, 2)), t96);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t105 = mul_add(t44, P::splat(P::lane(t64, 0)), t97);
+        // constant and copied elements
+        let t106 =
+            P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+        let t107 =
+            P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t108 = neg_mul_add(t44, P::splat(P::lane(t64, 2)), t100);
+        // constant and copied elements
+        let t109 =
+            P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+        let t110 =
+            P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t111 = t44 * t85;
+        let t112 = t43 * t85;
+        let t113 = t49 * t85;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t114 = neg_mul_add(t49, P::splat(P::lane(t64, 0)), t103);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t115 = neg_mul_add(t57, P::splat(P::lane(t64, 0)), t104);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t116 = t48 * t90;
+        let t117 = t52 * t90;
+        let t118 = t57 * t90;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t119 = neg_mul_add(t43, P::splat(P::lane(t64, 1)), t105);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t120 = mul_add(P::splat(base_rotation[1][0]), t40, t79);
+        let t121 = mul_add(P::splat(base_rotation[0][0]), t40, t80);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t122 = mul_add(P::splat(platform_rotation[2][0]), t14, t81);
+        // legs 4, 5, 6: first moment of the lower part about the base joint
+        let t123 = t106 * t107;
+        // legs 1, 2, 3: first moment of the upper part about the platform joint
+        let t124 = t101 * t109;
+        // second moment of payload and platform-side leg ends
+        let t125 = mul_add(t14 * t14, t101, t21 * t21 * t78);
+        // legs 1, 2, 3: actuator velocity d'
+        let t126 = mul_add(t97, t113, mul_add(t92, t112, t95 * t111));
+        // second moment of payload and platform-side leg ends
+        let t127 = mul_add(t11 * t14, t101, t20 * t21 * t78);
+        let t128 = mul_add(t14 * t15, t101, t21 * t22 * t78);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t129 = mul_add(P::splat(base_rotation[2][0]), t40, t83);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t130 = neg_mul_add(t48, P::splat(P::lane(t64, 2)), t102);
+        // legs 4, 5, 6: actuator velocity d'
+        let t131 = mul_add(t99, t118, mul_add(t94, t117, t96 * t116));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t132 = mul_add(t48, P::splat(P::lane(t64, 0)), t99);
+        // constant and copied elements
+        let t133 =
+            P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t134 = mul_add(P::splat(platform_rotation[0][2]), t15, t93);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t135 = P::splat(platform_rotation[0][1]) * t20;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t136 = t85 * neg_mul_add(t111, t126, t114);
+        let t137 = t85 * neg_mul_add(t112, t126, t108);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t138 = mul_add(P::splat(platform_rotation[1][2]), t15, t98);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t139 = P::splat(platform_rotation[1][1]) * t20;
+        // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+        let t140 = mul_add(t109, t124, mul_add(t67, t69, t71) + t110);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t141 = P::splat(base_rotation[0][1]) * t136;
+        let t142 = P::splat(base_rotation[1][1]) * t136;
+        let t143 = P::splat(base_rotation[2][1]) * t136;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t144 = mul_add(P::splat(base_rotation[1][2]), t46, t120);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t145 = P::splat(base_rotation[1][1]) * t45;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t146 = mul_add(P::splat(base_rotation[0][2]), t46, t121);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t147 = P::splat(base_rotation[0][1]) * t45;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t148 = mul_add(P::splat(platform_rotation[2][2]), t15, t122);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t149 = P::splat(platform_rotation[2][1]) * t20;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t150 = P::splat(base_rotation[0][1]) * t111;
+        let t151 = P::splat(base_rotation[1][1]) * t111;
+        let t152 = P::splat(base_rotation[2][1]) * t111;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t153 = t85 * t85;
+        let t154 = t85 * t124;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t155 = mul_add(P::splat(base_rotation[2][2]), t46, t129);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t156 = P::splat(base_rotation[2][1]) * t45;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t157 = neg_mul_add(t52, P::splat(P::lane(t64, 1)), t132);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t158 = mul_add(P::splat(base_rotation[0][0]), t137, t141);
+        let t159 = mul_add(P::splat(base_rotation[1][0]), t137, t142);
+        let t160 = mul_add(P::splat(base_rotation[2][0]), t137, t143);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t161 = mul_add(P::splat(platform_rotation[0][0]), t21, t135);
+        let t162 = mul_add(P::splat(platform_rotation[1][0]), t21, t139);
+        // constant and copied elements
+        let t163 =
+            P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+        let t164 =
+            P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t165 = mul_add(P::splat(base_rotation[1][0]), t50, t145);
+        let t166 = mul_add(P::splat(base_rotation[0][0]), t50, t147);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t167 = t90 * neg_mul_add(t116, t131, t115);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t168 = t85 * neg_mul_add(t113, t126, t119);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t169 = t85 * (t85 * t126);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t170 = mul_add(P::splat(platform_rotation[2][0]), t21, t149);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t171 = mul_add(P::splat(base_rotation[0][0]), t112, t150);
+        let t172 = mul_add(P::splat(base_rotation[1][0]), t112, t151);
+        let t173 = mul_add(P::splat(base_rotation[2][0]), t112, t152);
+        // legs 4, 5, 6: first moment of the upper part about the platform joint
+        let t174 = t78 * t163;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t175 = mul_sub(t140, t153, t154);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t176 = mul_add(P::splat(base_rotation[2][0]), t50, t156);
+        // legs 1, 2, 3: rate of the platform lever
+        let t177 = P::splat(platform_velocity[5]) * t138;
+        let t178 = P::splat(platform_velocity[4]) * t134;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t179 = P::splat(base_velocity[4]) * t146;
+        let t180 = P::splat(base_velocity[5]) * t144;
+        // second moment of payload and platform-side leg ends
+        let t181 = mul_add(t101, t11 * t11, t78 * (t20 * t20));
+        let t182 = mul_add(t101, t11 * t15, t78 * (t20 * t22));
+        let t183 = P::triple([P::lane(t125, 0), P::lane(t127, 0), P::lane(t128, 0)]);
+        let t184 = P::triple([P::lane(t125, 1), P::lane(t127, 1), P::lane(t128, 1)]);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t185 = t140 * t153;
+        // legs 1, 2, 3: rate of the platform lever
+        let t186 = P::splat(platform_velocity[3]) * t148;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t187 = P::splat(base_velocity[3]) * t155;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t188 = t90 * neg_mul_add(t117, t131, t130);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t189 = mul_add(P::splat(base_rotation[0][2]), t168, t158);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t190 = P::splat(base_rotation[0][1]) * t167;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t191 = mul_add(P::splat(base_rotation[1][2]), t168, t159);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t192 = P::splat(base_rotation[1][1]) * t167;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t193 = mul_add(P::splat(base_rotation[2][2]), t168, t160);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t194 = P::splat(base_rotation[2][1]) * t167;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t195 = mul_add(P::splat(platform_rotation[0][2]), t22, t161);
+        let t196 = mul_add(P::splat(platform_rotation[1][2]), t22, t162);
+        // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+        let t197 = mul_add(t163, t174, mul_add(t107, t123, t133) + t164);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t198 = mul_add(P::splat(base_rotation[1][2]), t51, t165);
+        let t199 = mul_add(P::splat(base_rotation[0][2]), t51, t166);
+        // legs 1, 2, 3: rate of the platform lever
+        let t200 = mul_sub(P::splat(platform_velocity[4]), t148, t177);
+        let t201 = mul_sub(P::splat(platform_velocity[3]), t138, t178);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t202 = mul_add(P::splat(platform_rotation[2][2]), t22, t170);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t203 = mul_add(P::splat(base_rotation[0][2]), t113, t171);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t204 = P::splat(base_rotation[0][1]) * t116;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t205 = mul_add(P::splat(base_rotation[1][2]), t113, t172);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t206 = P::splat(base_rotation[1][1]) * t116;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t207 = mul_add(P::splat(base_rotation[2][2]), t113, t173);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t208 = P::splat(base_rotation[2][1]) * t116;
+        // second moment of payload and platform-side leg ends
+        let t209 = P::triple([P::lane(t125, 2), P::lane(t127, 2), P::lane(t128, 2)]);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t210 = neg_mul_add(t175, w(2.0), t185);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t211 = t90 * t90;
+        let t212 = t90 * t174;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t213 = t69 * t85;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t214 = mul_add(P::splat(base_rotation[2][2]), t51, t176);
+        // legs 1, 2, 3: rate of the platform lever
+        let t215 = mul_sub(P::splat(platform_velocity[5]), t134, t186);
+        // second moment of payload and platform-side leg ends
+        let t216 = t183 + t184 + t209;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t217 = mul_add(P::splat(base_rotation[0][0]), t188, t190);
+        let t218 = mul_add(P::splat(base_rotation[1][0]), t188, t192);
+        let t219 = mul_add(P::splat(base_rotation[2][0]), t188, t194);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t220 = mul_sub(t140, t85 * t169, t124 * t169);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t221 = t90 * neg_mul_add(t118, t131, t157);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t222 = t90 * (t90 * t131);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t223 = mul_add(P::splat(base_rotation[0][0]), t117, t204);
+        let t224 = mul_add(P::splat(base_rotation[1][0]), t117, t206);
+        let t225 = mul_add(P::splat(base_rotation[2][0]), t117, t208);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t226 = neg_mul_add(t154, w(2.0), t185);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t227 = mul_sub(t197, t211, t212);
+        // legs 4, 5, 6: rate of the platform lever
+        let t228 = P::splat(platform_velocity[5]) * t196;
+        let t229 = P::splat(platform_velocity[4]) * t195;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t230 = P::splat(t55) + t200;
+        let t231 = P::splat(t56) + t201;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t232 = mul_sub(P::splat(base_velocity[3]), t144, t179) * t213;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t233 = P::splat(base_velocity[4]) * t199;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t234 = mul_sub(P::splat(base_velocity[4]), t155, t180) * t213;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t235 = P::splat(base_velocity[5]) * t198;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t236 = t203 * t210;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t237 = t197 * t211;
+        // legs 4, 5, 6: rate of the platform lever
+        let t238 = P::splat(platform_velocity[3]) * t202;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t239 = P::splat(t54) + t215;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t240 = t154 * t203;
+        let t241 = t154 * t205;
+        let t242 = t154 * t207;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t243 = t213 * mul_sub(P::splat(base_velocity[5]), t146, t187);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t244 = P::splat(base_velocity[3]) * t214;
+        // second moment of payload and platform-side leg ends
+        let t245 = mul_add(t101, t15 * t15, t78 * (t22 * t22));
+        let t246 = P::lane(t182, 1) + P::lane(t182, 0);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t247 = t205 * t210;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t248 = mul_add(P::splat(base_rotation[0][2]), t221, t217);
+        let t249 = mul_add(P::splat(base_rotation[1][2]), t221, t218);
+        let t250 = mul_add(P::splat(base_rotation[2][2]), t221, t219);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t251 = mul_sub(t203, t220, t175 * t189);
+        let t252 = mul_sub(t205, t220, t175 * t191);
+        let t253 = mul_sub(t207, t220, t175 * t193);
+        // legs 4, 5, 6: rate of the platform lever
+        let t254 = mul_sub(P::splat(platform_velocity[4]), t202, t228);
+        let t255 = mul_sub(P::splat(platform_velocity[3]), t196, t229);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t256 = mul_add(P::splat(base_rotation[0][2]), t118, t223);
+        let t257 = mul_add(P::splat(base_rotation[1][2]), t118, t224);
+        let t258 = mul_add(P::splat(base_rotation[2][2]), t118, t225);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t259 = neg_mul_add(w(2.0), t227, t237);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t260 = t207 * t236;
+        let t261 = mul_add(t207, t207 * t210, t226);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t262 = t90 * t123;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t263 = t85 * t140;
+        // legs 4, 5, 6: rate of the platform lever
+        let t264 = mul_sub(P::splat(platform_velocity[5]), t195, t238);
+        // second moment of payload and platform-side leg ends
+        let t265 = P::triple([P::lane(t216, 1), P::lane(t181, 2), P::lane(t182, 2)]);
+        let t266 = P::triple([c(0.0), P::lane(t181, 1) + P::lane(t181, 0), t246]);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t267 = t207 * t247;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t268 = mul_sub(t197, t90 * t222, t174 * t222);
+        // second moment of payload and platform-side leg ends
+        let t269 = t265 + t266;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t270 = neg_mul_add(w(2.0), t212, t237);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t271 = mul_add(t205, t247, t226);
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t272 = P::splat(t55) + t254;
+        let t273 = P::splat(t56) + t255;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t274 = neg_mul_add(t193, t263, mul_sub(t154, t231, t232));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t275 = mul_sub(P::splat(base_velocity[3]), t198, t233) * t262;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t276 = neg_mul_add(t189, t263, mul_sub(t154, t230, t234));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t277 = mul_sub(P::splat(base_velocity[4]), t214, t235) * t262;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t278 = P::splat(t8) + t134;
+        let t279 = P::splat(t13) + t148;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t280 = mul_add(t203, t236, t226);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t281 = t257 * t259;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t282 = t155 * t213;
+        let t283 = t146 * t213;
+        // mass matrix of the legs
+        let t284 = t134 * t267;
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t285 = P::splat(t54) + t264;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t286 = neg_mul_add(t203, t251, neg_mul_add(t189, t240, t220));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t287 = t212 * t256;
+        let t288 = t212 * t257;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t289 = neg_mul_add(t205, t252, neg_mul_add(t191, t241, t220));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t290 = t212 * t258;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t291 = neg_mul_add(t207, t253, neg_mul_add(t193, t242, t220));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t292 = neg_mul_add(t191, t263, mul_sub(t154, t239, t243));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t293 = t262 * mul_sub(P::splat(base_velocity[5]), t199, t244);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t294 = P::splat(t7) + t138;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t295 = t144 * t213;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t296 = mul_sub(t256, t268, t227 * t248);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t297 = mul_add(t193, t240, t207 * t251);
+        let t298 = mul_add(t189, t241, t203 * t252);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t299 = mul_sub(t257, t268, t227 * t249);
+        let t300 = mul_sub(t258, t268, t227 * t250);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t301 = mul_add(t191, t242, t205 * t253);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t302 = t205 * t236;
+        // mass matrix of the legs
+        let t303 = mul_sub(t134, t261, t148 * t260);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t304 = mul_sub(t154, t231, neg_mul_add(t124, t193, t232));
+        let t305 = mul_sub(t154, t239, neg_mul_add(t124, t191, t243));
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t306 = t256 * t259;
+        let t307 = mul_add(t257, t281, t270);
+        let t308 = t258 * t281;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t309 = t90 * t197;
+        // mass matrix of the legs
+        let t310 = mul_sub(t148, t267, t138 * t261);
+        let t311 = mul_sub(t138, t260, t284);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t312 = mul_sub(t154, t230, neg_mul_add(t124, t189, t234));
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t313 = mul_add(t191, t240, t205 * t251);
+        let t314 = mul_add(t193, t241, t207 * t252);
+        let t315 = mul_add(t189, t242, t203 * t253);
+        // Coriolis matrix of the legs
+        let t316 = t148 * t286;
+        let t317 = t134 * t289;
+        let t318 = t138 * t291;
+        // second moment of payload and platform-side leg ends
+        let t319 = P::triple([P::lane(t216, 2), P::lane(t269, 2), P::lane(t245, 2)]);
+        let t320 = P::triple([c(0.0), c(0.0), P::lane(t245, 1) + P::lane(t245, 0)]);
+        // mass matrix of the legs
+        let t321 = mul_sub(t148, t302, t284);
+        // Coriolis matrix of the legs
+        let t322 = t138 * t297;
+        let t323 = t138 * t286;
+        let t324 = t148 * t289;
+        let t325 = t148 * t298;
+        let t326 = t200 * t267;
+        let t327 = t134 * t291;
+        let t328 = t134 * t301;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t329 = t257 * t306;
+        // mass matrix of the legs
+        let t330 = mul_sub(t148, t271, t138 * t267);
+        let t331 = t195 * t308;
+        let t332 = mul_sub(t138, t302, t134 * t271);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t333 = mul_sub(t207, t292, t205 * t274);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t334 = neg_mul_add(t250, t309, mul_sub(t212, t273, t275));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t335 = mul_sub(t203, t274, t207 * t276);
+        let t336 = mul_sub(t193, t263, t304);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t337 = neg_mul_add(t248, t309, mul_sub(t212, t272, t277));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t338 = mul_sub(t191, t263, t305);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t339 = P::splat(t8) + t195;
+        let t340 = P::splat(t13) + t202;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t341 = t258 * t306;
+        let t342 = mul_add(t258, t258 * t259, t270);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t343 = neg_mul_add(t207, t263, mul_sub(t154, t279, t282));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t344 = t214 * t262;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t345 = neg_mul_add(t203, t263, mul_sub(t154, t278, t283));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t346 = t199 * t262;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t347 = neg_mul_add(t256, t296, neg_mul_add(t248, t287, t268));
+        let t348 = neg_mul_add(t257, t299, neg_mul_add(t249, t288, t268));
+        let t349 = neg_mul_add(t258, t300, neg_mul_add(t250, t290, t268));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t350 = neg_mul_add(t249, t309, mul_sub(t212, t285, t293));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t351 = mul_sub(t205, t276, t203 * t292);
+        let t352 = mul_sub(t189, t263, t312);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t353 = P::splat(t7) + t196;
+        // second moment of payload and platform-side leg ends
+        let t354 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t355 = mul_add(t256, t306, t270);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t356 = neg_mul_add(t205, t263, mul_sub(t154, t294, t295));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t357 = t198 * t262;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t358 = mul_add(t250, t287, t258 * t296);
+        let t359 = mul_add(t248, t288, t256 * t299);
+        let t360 = mul_add(t249, t290, t257 * t300);
+        // mass matrix of the legs
+        let t361 = mul_sub(t202, t329, t331);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t362 = mul_sub(t212, t273, neg_mul_add(t174, t250, t275));
+        let t363 = mul_sub(t212, t285, neg_mul_add(t174, t249, t293));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t364 = mul_sub(t154, t279, neg_mul_add(t124, t207, t282));
+        let t365 = mul_sub(t154, t294, neg_mul_add(t124, t205, t295));
+        // mass matrix of the legs
+        let t366 = mul_sub(t202, t307, t196 * t308);
+        let t367 = mul_sub(t196, t329, t195 * t307);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t368 = mul_add(t249, t287, t257 * t296);
+        let t369 = mul_add(t250, t288, t258 * t299);
+        let t370 = mul_add(t248, t290, t256 * t300);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t371 = mul_add(t203, t335, t336);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t372 = mul_sub(t212, t272, neg_mul_add(t174, t248, t277));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t373 = mul_add(t207, t333, t338);
+        // second moment of payload and platform-side leg ends
+        let t374 = t354 + parameters.payload_inertia[2][2];
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t375 = mul_sub(t154, t278, neg_mul_add(t124, t203, t283));
+        // mass matrix of the legs
+        let t376 = mul_sub(t134, t260, t148 * t280);
+        let t377 = mul_sub(t138, t280, t134 * t302);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t378 = mul_sub(t203, t351, t338);
+        let t379 = neg_mul_add(t205, t333, t336);
+        let t380 = mul_add(t205, t351, t352);
+        let t381 = neg_mul_add(t207, t335, t352);
+        // Coriolis matrix of the legs
+        let t382 = mul_add(t134, t297, t316) + mul_sub(t200, t260, t201 * t280);
+        let t383 = mul_add(t138, t298, t317) + mul_sub(t215, t302, t200 * t271);
+        let t384 = mul_add(t148, t301, t318) + mul_sub(t201, t267, t215 * t261);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t385 = t203 * t333;
+        let t386 = t205 * t335;
+        let t387 = t207 * t351;
+        // Coriolis matrix of the legs
+        let t388 = mul_sub(t148, t313, t322) + mul_sub(t201, t302, t215 * t260);
+        let t389 = mul_add(t134, t313, t323) - mul_sub(t215, t280, t200 * t302);
+        let t390 = mul_add(t138, t314, t324) - mul_sub(t201, t271, t215 * t267);
+        let t391 = mul_sub(t134, t314, t325) - mul_sub(t201, t302, t326);
+        let t392 = t254 * t308;
+        let t393 = mul_add(t148, t315, t327) - mul_sub(t200, t261, t201 * t260);
+        let t394 = mul_sub(t138, t315, t328) + mul_sub(t215, t260, t326);
+        // second moment of payload and platform-side leg ends
+        let t395 = P::triple([P::lane(t216, 0), P::lane(t269, 1), P::lane(t319 + t320, 2)]);
+        // mass matrix of the legs
+        let t396 = mul_sub(t195, t342, t202 * t341);
+        let t397 = mul_add(t202, t361, mul_add(t148, t321, t138 * t303));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t398 = mul_sub(t258, t350, t257 * t334);
+        let t399 = mul_sub(t256, t334, t258 * t337);
+        let t400 = mul_sub(t250, t309, t362);
+        let t401 = mul_sub(t249, t309, t363);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t402 = mul_sub(t207, t356, t205 * t343);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t403 = neg_mul_add(t258, t309, mul_sub(t212, t340, t344));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t404 = mul_sub(t203, t343, t207 * t345);
+        let t405 = mul_sub(t207, t263, t364);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t406 = neg_mul_add(t256, t309, mul_sub(t212, t339, t346));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t407 = mul_sub(t205, t263, t365);
+        // mass matrix of the legs
+        let t408 = mul_sub(t202, t308, t196 * t342);
+        let t409 = mul_sub(t196, t341, t331);
+        let t410 = mul_add(t202, t366, mul_sub(t148, t330, t138 * t310));
+        let t411 = mul_add(t202, t367, mul_sub(t148, t332, t138 * t311));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t412 = mul_sub(t257, t337, t256 * t350);
+        let t413 = mul_sub(t248, t309, t372);
+        // Coriolis matrix of the legs
+        let t414 = mul_sub(t264, t355, t254 * t329);
+        let t415 = mul_sub(t255, t307, t264 * t308);
+        let t416 = mul_sub(t254, t342, t255 * t341);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t417 = neg_mul_add(t257, t309, mul_sub(t212, t353, t357));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t418 = mul_sub(t205, t345, t203 * t356);
+        let t419 = mul_sub(t203, t263, t375);
+        // Coriolis matrix of the legs
+        let t420 = mul_sub(t255, t329, t264 * t341);
+        let t421 = mul_sub(t254, t341, t255 * t355);
+        let t422 = mul_sub(t264, t329, t254 * t307);
+        let t423 = mul_sub(t255, t308, t264 * t342);
+        // constant and copied elements
+        let t424 =
+            P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+        let t425 =
+            P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t426 = mul_sub(t212, t340, neg_mul_add(t174, t258, t344));
+        let t427 = mul_sub(t212, t353, neg_mul_add(t174, t257, t357));
+        // mass matrix of the legs
+        let t428 = mul_add(t205, t236, t329);
+        let t429 = mul_add(t207, t236, t341);
+        let t430 = mul_add(t196, t396, t397);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t431 = mul_add(t256, t399, t400);
+        let t432 = mul_add(t258, t398, t401);
+        // second moment of payload and platform-side leg ends
+        let t433 = mul_add(P::splat(t374), w(0.5), t395) - t425;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t434 = mul_add(t203, t404, t405);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t435 = mul_sub(t212, t339, neg_mul_add(t174, t256, t346));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t436 = mul_add(t207, t402, t407);
+        // mass matrix of the legs
+        let t437 = t280 + t355;
+        let t438 = neg_mul_add(t196, t408, t410);
+        let t439 = neg_mul_add(t196, t409, t411);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t440 = mul_sub(t256, t412, t401);
+        let t441 = neg_mul_add(t257, t398, t400);
+        let t442 = mul_add(t257, t412, t413);
+        let t443 = neg_mul_add(t258, t399, t413);
+        // Coriolis matrix of the legs
+        let t444 = mul_add(t195, t368, t196 * t347) - t414;
+        let t445 = mul_add(t196, t369, t202 * t348) - t415;
+        let t446 = mul_add(t202, t370, t195 * t349) - t416;
+        // constant and copied elements
+        let t447 =
+            P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+        let t448 =
+            P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t449 = mul_sub(t203, t418, t407);
+        let t450 = neg_mul_add(t205, t402, t405);
+        let t451 = mul_add(t205, t418, t419);
+        let t452 = neg_mul_add(t207, t404, t419);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t453 = t256 * t398;
+        let t454 = t257 * t399;
+        let t455 = t258 * t412;
+        // Coriolis matrix of the legs
+        let t456 = mul_sub(t202, t368, t196 * t358) + t420;
+        let t457 = mul_add(t195, t358, t202 * t347) + t421;
+        let t458 = mul_sub(t195, t369, t202 * t359) - mul_sub(t255, t329, t392);
+        let t459 = mul_add(t196, t359, t195 * t348) + t422;
+        let t460 = mul_add(t202, t360, t196 * t349) + t423;
+        let t461 = mul_sub(t196, t370, t195 * t360) + mul_sub(t264, t341, t392);
+        let t462 = mul_sub(t196, t370, neg_mul_add(t138, t315, t325));
+        let t463 = mul_add(t196, t349, mul_add(t148, t314, t318));
+        let t464 = mul_add(t202, t347, mul_add(t134, t315, t316));
+        let t465 = mul_add(t202, t368, mul_sub(t148, t313, t328));
+        let t466 = mul_add(t195, t348, mul_add(t138, t313, t317));
+        let t467 = mul_sub(t195, t369, neg_mul_add(t134, t314, t322));
+        // first moment of payload and platform-side leg ends
+        let t468 = mul_add(t14, t101, t21 * t78);
+        let t469 = mul_add(t11, t101, t20 * t78);
+        let t470 = mul_add(t15, t101, t22 * t78);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t471 = neg_mul_add(t69, t85, t154);
+        let t472 = t203 * t402;
+        let t473 = t205 * t404;
+        let t474 = t207 * t418;
+        // Coriolis matrix of the legs
+        let t475 = mul_add(t196, t360, mul_add(t138, t301, t324));
+        let t476 = mul_add(t202, t358, mul_add(t148, t297, t327));
+        let t477 = mul_add(t195, t359, mul_add(t134, t298, t323));
+        // second moment of payload and platform-side leg ends
+        let t478 = mul_add(t424 * t424, P::splat(parameters.payload_mass), t433);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t479 = mul_sub(t258, t417, t257 * t403);
+        let t480 = mul_sub(t256, t403, t258 * t406);
+        let t481 = mul_sub(t258, t309, t426);
+        let t482 = mul_sub(t257, t309, t427);
+        // Coriolis matrix of the legs
+        let t483 = mul_add(t202, t445, mul_add(t148, t390, t138 * t384));
+        let t484 = mul_add(t195, t446, mul_add(t134, t393, t148 * t382));
+        let t485 = mul_add(t196, t444, mul_add(t138, t389, t134 * t383));
+        // Coriolis matrix C_b, natural factorisation
+        let t486 = mul_add(t196, t432, mul_add(t148, t379, t138 * t373));
+        let t487 = mul_add(t202, t431, mul_add(t134, t381, t148 * t371));
+        // second moment of payload and platform-side leg ends
+        let t488 = P::triple([P::lane(t216, 1), P::lane(t269, 2), P::lane(t216, 2)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t489 = mul_sub(t257, t406, t256 * t417);
+        let t490 = mul_sub(t256, t309, t435);
+        // mass matrix of the legs
+        let t491 = mul_sub(t195, t341, t202 * t355);
+        let t492 = mul_sub(t196, t355, t195 * t329);
+        let t493 = mul_add(t195, t396, mul_sub(t134, t303, t148 * t376));
+        let t494 = mul_add(t195, t409, mul_sub(t134, t311, t148 * t377));
+        // Coriolis matrix of the legs
+        let t495 = mul_add(t202, t458, mul_add(t148, t391, t138 * t393));
+        let t496 = mul_add(t202, t459, mul_sub(t148, t383, t138 * t394));
+        let t497 = mul_add(t195, t460, mul_sub(t134, t384, t148 * t388));
+        let t498 = mul_add(t195, t461, mul_add(t134, t394, t148 * t389));
+        let t499 = mul_add(t196, t456, mul_add(t138, t388, t134 * t390));
+        let t500 = mul_add(t196, t457, mul_sub(t138, t382, t134 * t391));
+        // Coriolis matrix C_b, natural factorisation
+        let t501 = mul_add(t196, t443, mul_add(t148, t386, t138 * t381));
+        let t502 = neg_mul_add(t196, t455, mul_sub(t148, t380, t138 * t387));
+        let t503 = neg_mul_add(t202, t453, mul_sub(t134, t373, t148 * t385));
+        let t504 = neg_mul_add(t202, t440, mul_sub(t134, t387, t148 * t378));
+        let t505 = mul_add(t195, t441, mul_add(t138, t385, t134 * t379));
+        let t506 = neg_mul_add(t195, t454, mul_sub(t138, t371, t134 * t386));
+        let t507 = neg_mul_add(t195, t442, mul_sub(t138, t378, t134 * t380));
+        // Coriolis matrix of the legs
+        let t508 = mul_sub(t202, t359, t462);
+        let t509 = mul_add(t202, t369, t463);
+        let t510 = mul_add(t195, t370, t464);
+        let t511 = mul_sub(t195, t360, t465);
+        let t512 = mul_add(t196, t368, t466);
+        let t513 = mul_sub(t196, t358, t467);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t514 = t203 * t471;
+        let t515 = t205 * t471;
+        let t516 = t207 * t471;
+        // Coriolis matrix of the legs
+        let t517 = mul_add(t202, t348, t475);
+        let t518 = mul_add(t195, t349, t476);
+        let t519 = mul_add(t196, t347, t477);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t520 = mul_add(t256, t480, t481);
+        let t521 = mul_add(t258, t479, t482);
+        // mass matrix of the legs
+        let t522 = mul_add(t207, t247, t308);
+        let t523 = P::triple([P::lane(t437, 0), P::lane(t428, 0), P::lane(t429, 0)]);
+        let t524 = P::triple([P::lane(t437, 1), P::lane(t428, 1), P::lane(t429, 1)]);
+        // Coriolis matrix of the legs
+        let t525 = t286 + t347;
+        let t526 = t289 + t348;
+        let t527 = t291 + t349;
+        let t528 = mul_add(t196, t460, t483);
+        let t529 = mul_add(t202, t457, t484);
+        let t530 = mul_add(t195, t459, t485);
+        // Coriolis matrix C_b, natural factorisation
+        let t531 = mul_add(t202, t441, t486);
+        let t532 = mul_add(t195, t443, t487);
+        // constant and copied elements
+        let t533 =
+            P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t534 = mul_sub(t256, t489, t482);
+        let t535 = neg_mul_add(t257, t479, t481);
+        let t536 = mul_add(t257, t489, t490);
+        let t537 = neg_mul_add(t258, t480, t490);
+        // mass matrix of the legs
+        let t538 = t271 + t307;
+        let t539 = neg_mul_add(t202, t491, t493);
+        let t540 = neg_mul_add(t202, t492, t494);
+        let t541 = P::triple([P::lane(t438, 0), -P::lane(t430, 0), P::lane(t439, 0)]);
+        let t542 = P::triple([P::lane(t438, 1), -P::lane(t430, 1), P::lane(t439, 1)]);
+        // Coriolis matrix of the legs
+        let t543 = t313 + t368;
+        let t544 = t297 + t358;
+        let t545 = t298 + t359;
+        let t546 = t314 + t369;
+        let t547 = t315 + t370;
+        let t548 = t301 + t360;
+        let t549 = mul_add(t196, t446, t495);
+        let t550 = neg_mul_add(t196, t461, t496);
+        let t551 = neg_mul_add(t202, t456, t497);
+        let t552 = mul_add(t202, t444, t498);
+        let t553 = mul_add(t195, t445, t499);
+        let t554 = neg_mul_add(t195, t458, t500);
+        // Coriolis matrix C_b, natural factorisation
+        let t555 = mul_add(t202, t454, t501);
+        let t556 = mul_add(t202, t442, t502);
+        let t557 = mul_add(t195, t432, t503);
+        let t558 = mul_add(t195, t455, t504);
+        let t559 = mul_add(t196, t453, t505);
+        let t560 = mul_add(t196, t431, t506);
+        let t561 = mul_add(t196, t440, t507);
+        // second moment of payload and platform-side leg ends
+        let t562 = mul_add(t447 * t448, P::splat(parameters.payload_mass), t488) - t533;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t563 = neg_mul_add(t203, t514, t471);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t564 = neg_mul_add(t90, t123, t212);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t565 = t203 * t516;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t566 = t256 * t479;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t567 = t205 * t514;
+        let t568 = neg_mul_add(t205, t515, t471);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t569 = t257 * t480;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t570 = t207 * t515;
+        let t571 = neg_mul_add(t207, t516, t471);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t572 = t258 * t489;
+        // Coriolis matrix of the legs
+        let t573 = t389 + t444;
+        let t574 = t390 + t445;
+        let t575 = t393 + t446;
+        // Coriolis matrix C_b, natural factorisation
+        let t576 = mul_add(t203, t333, t453);
+        let t577 = t379 + t441;
+        let t578 = mul_add(t205, t335, t454);
+        let t579 = t381 + t443;
+        let t580 = mul_add(t207, t351, t455);
+        // first moment of payload and platform-side leg ends
+        let t581 = P::triple([P::lane(t468, 0), P::lane(t469, 0), P::lane(t470, 0)]);
+        let t582 = P::triple([P::lane(t468, 1), P::lane(t469, 1), P::lane(t470, 1)]);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t583 = t203 * t515;
+        let t584 = t205 * t516;
+        let t585 = t207 * t514;
+        // mass matrix of the legs
+        let t586 = mul_add(t202, t329, mul_sub(t148, t302, t138 * t260));
+        let t587 = P::triple([P::lane(t437, 2), P::lane(t428, 2), P::lane(t429, 2)]);
+        // Coriolis matrix of the legs
+        let t588 = t388 + t456;
+        let t589 = t382 + t457;
+        let t590 = t391 + t458;
+        let t591 = t383 + t459;
+        let t592 = t384 + t460;
+        let t593 = t394 + t461;
+        // Coriolis matrix C_b, natural factorisation
+        let t594 = t371 + t431;
+        let t595 = t378 + t440;
+        let t596 = t380 + t442;
+        let t597 = t373 + t432;
+        // mass matrix of the legs
+        let t598 = t523 + t524 + t587;
+        let t599 = P::triple([P::lane(t438, 2), -P::lane(t430, 2), P::lane(t439, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t600 = mul_add(t196, t521, mul_add(t148, t450, t138 * t436));
+        let t601 = mul_add(t202, t520, mul_add(t134, t452, t148 * t434));
+        // mass matrix M_p of the platform
+        let t602 = platform_rotation[1][1] * P::lane(t478, 1);
+        let t603 = platform_rotation[2][1] * P::lane(t478, 1);
+        // mass matrix of the legs
+        let t604 = mul_add(t196, t492, mul_sub(t138, t377, t134 * t332));
+        let t605 = t541 + t542 + t599;
+        // mass matrix M_b that couples the base acceleration
+        let t606 = mul_add(t196, t537, mul_add(t148, t473, t138 * t452));
+        let t607 = neg_mul_add(t196, t572, mul_sub(t148, t451, t138 * t474));
+        let t608 = neg_mul_add(t202, t566, mul_sub(t134, t436, t148 * t472));
+        let t609 = neg_mul_add(t202, t534, mul_sub(t134, t474, t148 * t449));
+        let t610 = mul_add(t195, t535, mul_add(t138, t472, t134 * t450));
+        let t611 = neg_mul_add(t195, t569, mul_sub(t138, t434, t134 * t473));
+        let t612 = neg_mul_add(t195, t536, mul_sub(t138, t449, t134 * t451));
+        // first moment of payload and platform-side leg ends
+        let t613 = P::triple([P::lane(t468, 2), P::lane(t469, 2), P::lane(t470, 2)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t614 = t256 * t564;
+        let t615 = t257 * t564;
+        let t616 = t258 * t564;
+        // mass matrix of the legs
+        let t617 = neg_mul_add(t196, t341, t586);
+        let t618 = t321 + t361;
+        // Coriolis matrix of the legs
+        let t619 = P::triple([-P::lane(t508, 0), P::lane(t517, 0), -P::lane(t509, 0)]);
+        let t620 = P::triple([-P::lane(t508, 1), P::lane(t517, 1), -P::lane(t509, 1)]);
+        let t621 = P::triple([-P::lane(t510, 0), -P::lane(t511, 0), P::lane(t518, 0)]);
+        let t622 = P::triple([-P::lane(t510, 1), -P::lane(t511, 1), P::lane(t518, 1)]);
+        let t623 = P::triple([P::lane(t519, 0), -P::lane(t512, 0), -P::lane(t513, 0)]);
+        let t624 = P::triple([P::lane(t519, 1), -P::lane(t512, 1), -P::lane(t513, 1)]);
+        // mass matrix M_p of the platform
+        let t625 = platform_rotation[0][1] * P::lane(t478, 1);
+        let t626 = platform_rotation[1][1] * P::lane(t562, 0);
+        let t627 = P::mul_add(platform_rotation[1][0], P::lane(t562, 0), t602);
+        let t628 = platform_rotation[2][1] * P::lane(t562, 0);
+        let t629 = P::mul_add(platform_rotation[2][0], P::lane(t562, 0), t603);
+        // mass matrix of the legs
+        let t630 = t376 + t491;
+        let t631 = t377 + t492;
+        let t632 = t330 + t366;
+        let t633 = t332 + t367;
+        let t634 = t310 + t408;
+        let t635 = t303 + t396;
+        let t636 = t311 + t409;
+        let t637 = P::lane(t522, 1) + P::lane(t522, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t638 = mul_add(t202, t535, t600);
+        let t639 = mul_add(t195, t537, t601);
+        // Coriolis matrix of the legs
+        let t640 = P::triple([-P::lane(t525, 0), P::lane(t543, 0), P::lane(t544, 0)]);
+        let t641 = P::triple([-P::lane(t525, 1), P::lane(t543, 1), P::lane(t544, 1)]);
+        let t642 = P::triple([P::lane(t545, 0), -P::lane(t526, 0), P::lane(t546, 0)]);
+        let t643 = P::triple([P::lane(t545, 1), -P::lane(t526, 1), P::lane(t546, 1)]);
+        let t644 = P::triple([P::lane(t547, 0), P::lane(t548, 0), -P::lane(t527, 0)]);
+        let t645 = P::triple([P::lane(t547, 1), P::lane(t548, 1), -P::lane(t527, 1)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t646 = neg_mul_add(t256, t614, t564);
+        let t647 = t256 * t616;
+        let t648 = t257 * t614;
+        let t649 = neg_mul_add(t257, t615, t564);
+        let t650 = t258 * t615;
+        let t651 = neg_mul_add(t258, t616, t564);
+        // mass matrix of the legs
+        let t652 = t261 + t342;
+        let t653 = neg_mul_add(t195, t367, t604);
+        let t654 = P::lane(t540, 1) + P::lane(t540, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t655 = mul_add(t202, t569, t606);
+        let t656 = mul_add(t202, t536, t607);
+        let t657 = mul_add(t195, t521, t608);
+        let t658 = mul_add(t195, t572, t609);
+        let t659 = mul_add(t196, t566, t610);
+        let t660 = mul_add(t196, t520, t611);
+        let t661 = mul_add(t196, t534, t612);
+        // Coriolis matrix of the legs
+        let t662 = P::triple([-P::lane(t528, 0), P::lane(t549, 0), P::lane(t550, 0)]);
+        let t663 = P::triple([-P::lane(t528, 1), P::lane(t549, 1), P::lane(t550, 1)]);
+        let t664 = P::triple([P::lane(t551, 0), -P::lane(t529, 0), P::lane(t552, 0)]);
+        let t665 = P::triple([P::lane(t551, 1), -P::lane(t529, 1), P::lane(t552, 1)]);
+        let t666 = P::triple([P::lane(t553, 0), P::lane(t554, 0), -P::lane(t530, 0)]);
+        let t667 = P::triple([P::lane(t553, 1), P::lane(t554, 1), -P::lane(t530, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t668 = P::triple([-P::lane(t531, 0), P::lane(t555, 0), P::lane(t556, 0)]);
+        let t669 = P::triple([-P::lane(t531, 1), P::lane(t555, 1), P::lane(t556, 1)]);
+        let t670 = P::triple([P::lane(t557, 0), -P::lane(t532, 0), P::lane(t558, 0)]);
+        let t671 = P::triple([P::lane(t557, 1), -P::lane(t532, 1), P::lane(t558, 1)]);
+        let t672 = P::triple([P::lane(t559, 0), P::lane(t560, 0), P::lane(t561, 0)]);
+        let t673 = P::triple([P::lane(t559, 1), P::lane(t560, 1), P::lane(t561, 1)]);
+        // first moment of payload and platform-side leg ends
+        let t674 = mul_add(t424, P::splat(parameters.payload_mass), t581 + t582 + t613);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t675 = t256 * t615;
+        let t676 = t257 * t616;
+        let t677 = t258 * t614;
+        // mass matrix M_b that couples the base acceleration
+        let t678 = mul_add(t203, t402, t566);
+        let t679 = t450 + t535;
+        let t680 = mul_add(t205, t404, t569);
+        let t681 = t452 + t537;
+        let t682 = mul_add(t207, t418, t572);
+        // Coriolis matrix of the legs
+        let t683 = P::triple([P::lane(t588, 0), P::lane(t589, 0), -P::lane(t573, 0)]);
+        let t684 = P::triple([P::lane(t588, 1), P::lane(t589, 1), -P::lane(t573, 1)]);
+        let t685 = P::triple([-P::lane(t574, 0), P::lane(t590, 0), P::lane(t591, 0)]);
+        let t686 = P::triple([-P::lane(t574, 1), P::lane(t590, 1), P::lane(t591, 1)]);
+        let t687 = P::triple([P::lane(t592, 0), -P::lane(t575, 0), P::lane(t593, 0)]);
+        let t688 = P::triple([P::lane(t592, 1), -P::lane(t575, 1), P::lane(t593, 1)]);
+        let t689 = P::triple([-P::lane(t508, 2), P::lane(t517, 2), -P::lane(t509, 2)]);
+        let t690 = P::triple([-P::lane(t510, 2), -P::lane(t511, 2), P::lane(t518, 2)]);
+        let t691 = P::triple([P::lane(t519, 2), -P::lane(t512, 2), -P::lane(t513, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t692 = P::triple([P::lane(t576, 0), P::lane(t594, 0), P::lane(t595, 0)]);
+        let t693 = P::triple([P::lane(t576, 1), P::lane(t594, 1), P::lane(t595, 1)]);
+        let t694 = P::triple([-P::lane(t577, 0), P::lane(t578, 0), P::lane(t596, 0)]);
+        let t695 = P::triple([-P::lane(t577, 1), P::lane(t578, 1), P::lane(t596, 1)]);
+        let t696 = P::triple([P::lane(t597, 0), -P::lane(t579, 0), P::lane(t580, 0)]);
+        let t697 = P::triple([P::lane(t597, 1), -P::lane(t579, 1), P::lane(t580, 1)]);
+        // mass matrix M_p of the platform
+        let t698 = platform_rotation[0][1] * P::lane(t562, 0);
+        let t699 = P::mul_add(platform_rotation[0][0], P::lane(t562, 0), t625);
+        let t700 = P::mul_add(platform_rotation[1][0], P::lane(t478, 0), t626);
+        let t701 = P::mul_add(platform_rotation[2][0], P::lane(t478, 0), t628);
+        // mass matrix of the legs
+        let t702 = P::triple([P::lane(t598, 1), P::lane(t538, 2), P::lane(t522, 2)]);
+        let t703 = P::triple([c(0.0), P::lane(t538, 1) + P::lane(t538, 0), t637]);
+        // mass matrix M_b that couples the base acceleration
+        let t704 = t434 + t520;
+        let t705 = t449 + t534;
+        let t706 = t451 + t536;
+        let t707 = t436 + t521;
+        // Coriolis matrix of the legs
+        let t708 = P::triple([-P::lane(t525, 2), P::lane(t543, 2), P::lane(t544, 2)]);
+        let t709 = P::triple([P::lane(t545, 2), -P::lane(t526, 2), P::lane(t546, 2)]);
+        let t710 = P::triple([P::lane(t547, 2), P::lane(t548, 2), -P::lane(t527, 2)]);
+        let t711 = t619 + t620 + t689;
+        let t712 = t621 + t622 + t690;
+        let t713 = t623 + t624 + t691;
+        // mass matrix M_p of the platform
+        let t714 = P::mul_add(platform_rotation[1][2], P::lane(t562, 1), t627);
+        let t715 = platform_rotation[1][1] * P::lane(t562, 1);
+        let t716 = P::mul_add(platform_rotation[2][2], P::lane(t562, 1), t629);
+        let t717 = platform_rotation[2][1] * P::lane(t562, 1);
+        // mass matrix of the legs
+        let t718 = t702 + t703;
+        let t719 = P::triple([P::lane(t605, 1), P::lane(t539, 2), P::lane(t540, 2)]);
+        let t720 = P::triple([c(0.0), P::lane(t539, 1) + P::lane(t539, 0), t654]);
+        // mass matrix M_b that couples the base acceleration
+        let t721 = mul_add(t196, t650, mul_add(t148, t568, t138 * t570));
+        let t722 = mul_add(t202, t647, mul_add(t134, t571, t148 * t565));
+        let t723 = mul_add(t195, t648, mul_add(t138, t563, t134 * t567));
+        // Coriolis matrix of the legs
+        let t724 = t640 + t641 + t708;
+        let t725 = t642 + t643 + t709;
+        let t726 = t644 + t645 + t710;
+        let t727 = P::triple([-P::lane(t528, 2), P::lane(t549, 2), P::lane(t550, 2)]);
+        let t728 = P::triple([P::lane(t551, 2), -P::lane(t529, 2), P::lane(t552, 2)]);
+        let t729 = P::triple([P::lane(t553, 2), P::lane(t554, 2), -P::lane(t530, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t730 = P::triple([-P::lane(t531, 2), P::lane(t555, 2), P::lane(t556, 2)]);
+        let t731 = P::triple([P::lane(t557, 2), -P::lane(t532, 2), P::lane(t558, 2)]);
+        let t732 = P::triple([P::lane(t559, 2), P::lane(t560, 2), P::lane(t561, 2)]);
+        // mass matrix of the legs
+        let t733 = t719 + t720;
+        // mass matrix M_b that couples the base acceleration
+        let t734 = neg_mul_add(t196, t677, mul_sub(t148, t567, t138 * t585));
+        let t735 = mul_add(t196, t651, mul_add(t148, t584, t138 * t571));
+        let t736 = mul_add(t202, t646, mul_add(t134, t585, t148 * t563));
+        let t737 = neg_mul_add(t202, t675, mul_sub(t134, t570, t148 * t583));
+        let t738 = mul_add(t195, t649, mul_add(t138, t583, t134 * t568));
+        let t739 = neg_mul_add(t195, t676, mul_sub(t138, t565, t134 * t584));
+        // Coriolis matrix of the legs
+        let t740 = P::triple([P::lane(t588, 2), P::lane(t589, 2), -P::lane(t573, 2)]);
+        let t741 = P::triple([-P::lane(t574, 2), P::lane(t590, 2), P::lane(t591, 2)]);
+        let t742 = P::triple([P::lane(t592, 2), -P::lane(t575, 2), P::lane(t593, 2)]);
+        let t743 = t662 + t663 + t727;
+        let t744 = t664 + t665 + t728;
+        let t745 = t666 + t667 + t729;
+        // Coriolis matrix C_b, natural factorisation
+        let t746 = P::triple([P::lane(t576, 2), P::lane(t594, 2), P::lane(t595, 2)]);
+        let t747 = P::triple([-P::lane(t577, 2), P::lane(t578, 2), P::lane(t596, 2)]);
+        let t748 = P::triple([P::lane(t597, 2), -P::lane(t579, 2), P::lane(t580, 2)]);
+        // mass matrix M_p of the platform
+        let t749 = P::mul_add(platform_rotation[0][0], P::lane(t478, 0), t698);
+        // Coriolis matrix of the legs
+        let t750 = t683 + t684 + t740;
+        let t751 = t685 + t686 + t741;
+        let t752 = t687 + t688 + t742;
+        // mass matrix M_p of the platform
+        let t753 = P::mul_add(platform_rotation[0][2], P::lane(t562, 1), t699);
+        let t754 = platform_rotation[0][1] * P::lane(t562, 1);
+        let t755 = P::mul_add(platform_rotation[1][2], P::lane(t562, 2), t700);
+        let t756 = P::mul_add(platform_rotation[1][0], P::lane(t562, 2), t715);
+        let t757 = P::mul_add(platform_rotation[2][2], P::lane(t562, 2), t701);
+        let t758 = P::mul_add(platform_rotation[2][0], P::lane(t562, 2), t717);
+        // mass matrix of the legs
+        let t759 = P::triple([P::lane(t617, 0), P::lane(t630, 0), P::lane(t631, 0)]);
+        let t760 = P::triple([P::lane(t617, 1), P::lane(t630, 1), P::lane(t631, 1)]);
+        let t761 = P::triple([P::lane(t632, 0), -P::lane(t618, 0), P::lane(t633, 0)]);
+        let t762 = P::triple([P::lane(t632, 1), -P::lane(t618, 1), P::lane(t633, 1)]);
+        let t763 = P::triple([P::lane(t634, 0), P::lane(t635, 0), P::lane(t636, 0)]);
+        let t764 = P::triple([P::lane(t634, 1), P::lane(t635, 1), P::lane(t636, 1)]);
+        // mass of payload and platform-side leg ends
+        let t765 = t78 + t101;
+        // mass matrix M_b that couples the base acceleration
+        let t766 = mul_add(t202, t649, t721);
+        let t767 = mul_add(t195, t651, t722);
+        let t768 = mul_add(t196, t646, t723);
+        let t769 = mul_add(t202, t648, t734);
+        let t770 = mul_add(t202, t676, t735);
+        let t771 = mul_add(t195, t677, t736);
+        let t772 = mul_add(t195, t650, t737);
+        let t773 = mul_add(t196, t675, t738);
+        let t774 = mul_add(t196, t647, t739);
+        let t775 = P::triple([-P::lane(t638, 0), P::lane(t655, 0), P::lane(t656, 0)]);
+        let t776 = P::triple([-P::lane(t638, 1), P::lane(t655, 1), P::lane(t656, 1)]);
+        let t777 = P::triple([P::lane(t657, 0), -P::lane(t639, 0), P::lane(t658, 0)]);
+        let t778 = P::triple([P::lane(t657, 1), -P::lane(t639, 1), P::lane(t658, 1)]);
+        let t779 = P::triple([P::lane(t659, 0), P::lane(t660, 0), P::lane(t661, 0)]);
+        let t780 = P::triple([P::lane(t659, 1), P::lane(t660, 1), P::lane(t661, 1)]);
+        // mass matrix M_p of the platform
+        let t781 = P::mul_add(platform_rotation[0][2], P::lane(t562, 2), t749);
+        let t782 = P::mul_add(platform_rotation[0][0], P::lane(t562, 2), t754);
+        // mass matrix of the legs
+        let t783 = P::triple([P::lane(t617, 2), P::lane(t630, 2), P::lane(t631, 2)]);
+        let t784 = P::triple([P::lane(t632, 2), -P::lane(t618, 2), P::lane(t633, 2)]);
+        let t785 = P::triple([P::lane(t634, 2), P::lane(t635, 2), P::lane(t636, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t786 = t563 + t646;
+        let t787 = mul_add(t203, t515, t675);
+        let t788 = mul_add(t203, t516, t647);
+        let t789 = mul_add(t205, t514, t648);
+        let t790 = t568 + t649;
+        let t791 = mul_add(t205, t516, t676);
+        let t792 = mul_add(t207, t514, t677);
+        let t793 = mul_add(t207, t515, t650);
+        let t794 = t571 + t651;
+        let t795 = P::triple([P::lane(t678, 0), P::lane(t704, 0), P::lane(t705, 0)]);
+        let t796 = P::triple([P::lane(t678, 1), P::lane(t704, 1), P::lane(t705, 1)]);
+        let t797 = P::triple([-P::lane(t679, 0), P::lane(t680, 0), P::lane(t706, 0)]);
+        let t798 = P::triple([-P::lane(t679, 1), P::lane(t680, 1), P::lane(t706, 1)]);
+        let t799 = P::triple([P::lane(t707, 0), -P::lane(t681, 0), P::lane(t682, 0)]);
+        let t800 = P::triple([P::lane(t707, 1), -P::lane(t681, 1), P::lane(t682, 1)]);
+        // platform origin seen from the base
+        let t801 = P::triple([t13, t8, t7]);
+        // Coriolis matrix of the legs
+        let t802 = P::triple([P::lane(t711, 1), P::lane(t711, 2), P::lane(t711, 0)]);
+        let t803 = P::triple([P::lane(t712, 1), P::lane(t712, 2), P::lane(t712, 0)]);
+        let t804 = P::triple([P::lane(t713, 1), P::lane(t713, 2), P::lane(t713, 0)]);
+        // mass matrix M_p of the platform
+        let t805 = platform_rotation[2][1] * P::lane(t674, 1);
+        let t806 = platform_rotation[1][1] * P::lane(t674, 1);
+        let t807 = platform_rotation[0][1] * P::lane(t674, 1);
+        let t808 = P::mul_add(platform_rotation[1][0], t755, platform_rotation[1][1] * t714);
+        let t809 = P::mul_add(platform_rotation[1][2], P::lane(t478, 2), t756);
+        let t810 = P::mul_add(platform_rotation[2][0], t757, platform_rotation[2][1] * t716);
+        let t811 = P::mul_add(platform_rotation[2][2], P::lane(t478, 2), t758);
+        // mass matrix of the legs
+        let t812 = t759 + t760 + t783;
+        let t813 = t761 + t762 + t784;
+        let t814 = P::triple([P::lane(t598, 2), P::lane(t718, 2), P::lane(t652, 2)]);
+        let t815 = P::triple([c(0.0), c(0.0), P::lane(t652, 1) + P::lane(t652, 0)]);
+        let t816 = t763 + t764 + t785;
+        // Coriolis matrix of the legs
+        let t817 = P::triple([P::lane(t724, 1), P::lane(t724, 2), P::lane(t724, 0)]);
+        let t818 = P::triple([P::lane(t725, 1), P::lane(t725, 2), P::lane(t725, 0)]);
+        let t819 = P::triple([P::lane(t726, 1), P::lane(t726, 2), P::lane(t726, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t820 = neg_mul_add(t801, t802, t743 + (t668 + t669 + t730));
+        let t821 = neg_mul_add(t801, t803, t744 + (t670 + t671 + t731));
+        let t822 = neg_mul_add(t801, t804, t745 + (t672 + t673 + t732));
+        // mass matrix of the legs
+        let t823 = t814 + t815;
+        let t824 = P::triple([P::lane(t605, 2), P::lane(t733, 2), P::lane(t653, 2)]);
+        let t825 = P::triple([c(0.0), c(0.0), P::lane(t653, 1) + P::lane(t653, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t826 = P::triple([-P::lane(t638, 2), P::lane(t655, 2), P::lane(t656, 2)]);
+        let t827 = P::triple([P::lane(t657, 2), -P::lane(t639, 2), P::lane(t658, 2)]);
+        let t828 = P::triple([P::lane(t659, 2), P::lane(t660, 2), P::lane(t661, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t829 = mul_add(t801, t817, t750 + (t692 + t693 + t746));
+        let t830 = mul_add(t801, t818, t751 + (t694 + t695 + t747));
+        let t831 = mul_add(t801, t819, t752 + (t696 + t697 + t748));
+        // mass matrix of the legs
+        let t832 = t824 + t825;
+        // mass matrix M_b that couples the base acceleration
+        let t833 = P::triple([P::lane(t678, 2), P::lane(t704, 2), P::lane(t705, 2)]);
+        let t834 = P::triple([-P::lane(t679, 2), P::lane(t680, 2), P::lane(t706, 2)]);
+        let t835 = P::triple([P::lane(t707, 2), -P::lane(t681, 2), P::lane(t682, 2)]);
+        // mass matrix M_p of the platform
+        let t836 = P::mul_add(platform_rotation[2][0], P::lane(t674, 0), t805);
+        let t837 = P::mul_add(platform_rotation[1][0], P::lane(t674, 0), t806);
+        let t838 = P::mul_add(platform_rotation[0][0], P::lane(t674, 0), t807);
+        let t839 = P::mul_add(platform_rotation[0][0], t781, platform_rotation[0][1] * t753);
+        let t840 = P::mul_add(platform_rotation[0][2], P::lane(t478, 2), t782);
+        // platform origin seen from the base
+        let t841 = P::triple([t7, t13, t8]);
+        // Coriolis matrix of the legs
+        let t842 = P::triple([P::lane(t711, 2), P::lane(t711, 0), P::lane(t711, 1)]);
+        let t843 = P::triple([P::lane(t712, 2), P::lane(t712, 0), P::lane(t712, 1)]);
+        let t844 = P::triple([P::lane(t713, 2), P::lane(t713, 0), P::lane(t713, 1)]);
+        // mass matrix M_p of the platform
+        let t845 = P::mul_add(platform_rotation[1][0], t781, platform_rotation[1][1] * t753);
+        let t846 = P::mul_add(platform_rotation[2][0], t781, platform_rotation[2][1] * t753);
+        let t847 = P::mul_add(platform_rotation[1][2], t809, t808);
+        let t848 = P::mul_add(platform_rotation[2][0], t755, platform_rotation[2][1] * t714);
+        let t849 = P::mul_add(platform_rotation[2][2], t811, t810);
+        // Coriolis matrix of the legs
+        let t850 = P::triple([P::lane(t724, 2), P::lane(t724, 0), P::lane(t724, 1)]);
+        let t851 = P::triple([P::lane(t725, 2), P::lane(t725, 0), P::lane(t725, 1)]);
+        let t852 = P::triple([P::lane(t726, 2), P::lane(t726, 0), P::lane(t726, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t853 = P::triple([P::lane(t769, 0), -P::lane(t766, 0), P::lane(t770, 0)]);
+        let t854 = P::triple([P::lane(t769, 1), -P::lane(t766, 1), P::lane(t770, 1)]);
+        let t855 = P::triple([P::lane(t771, 0), P::lane(t772, 0), -P::lane(t767, 0)]);
+        let t856 = P::triple([P::lane(t771, 1), P::lane(t772, 1), -P::lane(t767, 1)]);
+        let t857 = P::triple([-P::lane(t768, 0), P::lane(t773, 0), P::lane(t774, 0)]);
+        let t858 = P::triple([-P::lane(t768, 1), P::lane(t773, 1), P::lane(t774, 1)]);
+        // mass matrix M_p of the platform
+        let t859 = P::mul_add(platform_rotation[2][2], P::lane(t674, 2), t836);
+        let t860 = P::mul_add(platform_rotation[1][2], P::lane(t674, 2), t837);
+        let t861 = P::mul_add(platform_rotation[0][2], P::lane(t674, 2), t838);
+        let t862 = P::mul_add(platform_rotation[0][2], t840, t839);
+        // mass of payload and platform-side leg ends
+        let t863 = P::lane(t765, 2) + (P::lane(t765, 1) + P::lane(t765, 0));
+        // mass matrix M_b that couples the base acceleration
+        let t864 = P::triple([-P::lane(t786, 0), P::lane(t787, 0), P::lane(t788, 0)]);
+        let t865 = P::triple([-P::lane(t786, 1), P::lane(t787, 1), P::lane(t788, 1)]);
+        let t866 = P::triple([P::lane(t789, 0), -P::lane(t790, 0), P::lane(t791, 0)]);
+        let t867 = P::triple([P::lane(t789, 1), -P::lane(t790, 1), P::lane(t791, 1)]);
+        let t868 = P::triple([P::lane(t792, 0), P::lane(t793, 0), -P::lane(t794, 0)]);
+        let t869 = P::triple([P::lane(t792, 1), P::lane(t793, 1), -P::lane(t794, 1)]);
+        // mass matrix of the legs
+        let t870 = P::triple([P::lane(t813, 0), P::lane(t816, 0), P::lane(t812, 0)]);
+        let t871 = P::triple([P::lane(t813, 1), P::lane(t816, 1), P::lane(t812, 1)]);
+        let t872 = P::triple([P::lane(t813, 2), P::lane(t816, 2), P::lane(t812, 2)]);
+        // velocity of the platform origin relative to the base
+        let t873 = P::triple([t56, t55, t54]);
+        // mass matrix M_p of the platform
+        let t874 = P::mul_add(platform_rotation[1][2], t840, t845);
+        let t875 = P::mul_add(platform_rotation[2][2], t840, t846);
+        let t876 = P::mul_add(platform_rotation[2][2], t809, t848);
+        // Coriolis matrix C_p, natural factorisation
+        let t877 = P::mul_sub(t374, c(0.5), t847);
+        let t878 = P::mul_sub(t374, c(0.5), t849);
+        // mass matrix of the legs
+        let t879 = P::triple([P::lane(t598, 1), P::lane(t598, 2), P::lane(t598, 0)]);
+        let t880 = P::triple([P::lane(t718, 1), P::lane(t718, 2), P::lane(t598, 1)]);
+        let t881 = P::triple([P::lane(t718, 2), P::lane(t823, 2), P::lane(t598, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t882 = mul_add(t801, t870, t605 + (t775 + t776 + t826));
+        let t883 = mul_add(t801, t871, t733 + (t777 + t778 + t827));
+        let t884 = mul_add(t801, t872, t832 + (t779 + t780 + t828));
+        // Coriolis matrix C_b, natural factorisation
+        let t885 = mul_add(t870, t873, mul_add(t841, t842, t820));
+        let t886 = mul_add(t871, t873, mul_add(t841, t843, t821));
+        let t887 = mul_add(t872, t873, mul_add(t841, t844, t822));
+        // mass matrix M_b that couples the base acceleration
+        let t888 = P::triple([P::lane(t769, 2), -P::lane(t766, 2), P::lane(t770, 2)]);
+        let t889 = P::triple([P::lane(t771, 2), P::lane(t772, 2), -P::lane(t767, 2)]);
+        let t890 = P::triple([-P::lane(t768, 2), P::lane(t773, 2), P::lane(t774, 2)]);
+        let t891 = mul_add(t801, t879, t812 + (t795 + t796 + t833));
+        let t892 = mul_add(t801, t880, t813 + (t797 + t798 + t834));
+        let t893 = mul_add(t801, t881, t816 + (t799 + t800 + t835));
+        // Coriolis matrix C_b, natural factorisation
+        let t894 = neg_mul_add(t873, t879, mul_sub(t841, t850, t829));
+        let t895 = neg_mul_add(t873, t880, mul_sub(t841, t851, t830));
+        let t896 = neg_mul_add(t873, t881, mul_sub(t841, t852, t831));
+        // mass of payload and platform-side leg ends
+        let t897 = parameters.payload_mass + t863;
+        // mass matrix M_b that couples the base acceleration
+        let t898 = P::triple([-P::lane(t786, 2), P::lane(t787, 2), P::lane(t788, 2)]);
+        let t899 = P::triple([P::lane(t789, 2), -P::lane(t790, 2), P::lane(t791, 2)]);
+        let t900 = P::triple([P::lane(t792, 2), P::lane(t793, 2), -P::lane(t794, 2)]);
+        // Coriolis matrix C_p, natural factorisation
+        let t901 = P::mul_sub(t374, c(0.5), t862);
+        // mass matrix of the legs
+        let t902 = P::triple([P::lane(t816, 0), P::lane(t812, 0), P::lane(t813, 0)]);
+        let t903 = P::triple([P::lane(t816, 1), P::lane(t812, 1), P::lane(t813, 1)]);
+        let t904 = P::triple([P::lane(t816, 2), P::lane(t812, 2), P::lane(t813, 2)]);
+        // velocity of the platform origin relative to the base
+        let t905 = P::triple([t54, t56, t55]);
+        // Coriolis matrix C_p, natural factorisation
+        let t906 = platform_velocity[3] * t876;
+        // mass matrix of the legs
+        let t907 = P::triple([P::lane(t812, 0), P::lane(t813, 0), P::lane(t816, 0)]);
+        let t908 = P::triple([P::lane(t812, 1), P::lane(t813, 1), P::lane(t816, 1)]);
+        let t909 = P::triple([P::lane(t812, 2), P::lane(t813, 2), P::lane(t816, 2)]);
+        let t910 = P::triple([P::lane(t598, 2), P::lane(t598, 0), P::lane(t598, 1)]);
+        let t911 = P::triple([P::lane(t718, 2), P::lane(t598, 1), P::lane(t718, 1)]);
+        let t912 = P::triple([P::lane(t823, 2), P::lane(t598, 2), P::lane(t718, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t913 = mul_sub(t841, t902, t882);
+        let t914 = mul_sub(t841, t903, t883);
+        let t915 = mul_sub(t841, t904, t884);
+        // Coriolis matrix C_b, natural factorisation
+        let t916 = mul_sub(t902, t905, t885);
+        let t917 = mul_sub(t903, t905, t886);
+        let t918 = mul_sub(t904, t905, t887);
+        // mass matrix M_p of the platform
+        let t919 = P::lane(t478, 2) + (P::lane(t478, 1) + P::lane(t478, 0));
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t920 = mul_sub(t138, t207, t148 * t205);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t921 = mul_sub(t196, t258, t202 * t257);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t922 = mul_sub(t148, t203, t134 * t207);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t923 = mul_sub(t202, t256, t195 * t258);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t924 = mul_sub(t134, t205, t138 * t203);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t925 = mul_sub(t195, t257, t196 * t256);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t926 = mul_sub(t207, t294, t205 * t279);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t927 = mul_sub(t258, t353, t257 * t340);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t928 = mul_sub(t203, t279, t207 * t278);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t929 = mul_sub(t256, t340, t258 * t339);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t930 = mul_sub(t205, t278, t203 * t294);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t931 = mul_sub(t257, t339, t256 * t353);
+        // mass matrix M_p of the platform
+        let t932 = P::triple([c(0.0), t897, c(0.0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t933 = mul_sub(t841, t910, t891);
+        let t934 = mul_sub(t841, t911, t892);
+        let t935 = mul_sub(t841, t912, t893);
+        let t936 = t907 - (t853 + t854 + t888);
+        let t937 = t908 - (t855 + t856 + t889);
+        let t938 = t909 - (t857 + t858 + t890);
+        // Coriolis matrix C_b, natural factorisation
+        let t939 = mul_add(t905, t910, t894);
+        let t940 = mul_add(t905, t911, t895);
+        let t941 = mul_add(t905, t912, t896);
+        // Coriolis matrix C_p, natural factorisation
+        let t942 = P::mul_sub(platform_velocity[3], t860, platform_velocity[4] * t861);
+        let t943 = P::mul_sub(platform_velocity[5], t861, platform_velocity[3] * t859);
+        let t944 = P::mul_sub(platform_velocity[4], t859, platform_velocity[5] * t860);
+        // mass matrix of the legs
+        let t945 = t718 + t932;
+        let t946 = t823 + P::triple([c(0.0), c(0.0), t897]);
+        // mass matrix M_b that couples the base acceleration
+        let t947 = t598 - (t864 + t865 + t898);
+        let t948 = t718 - (t866 + t867 + t899);
+        let t949 = t823 - (t868 + t869 + t900);
+        // Coriolis matrix C_p, natural factorisation
+        let t950 = P::mul_sub(platform_velocity[5], t874, platform_velocity[4] * t875);
+        let t951 = P::mul_add(platform_velocity[5], t877, platform_velocity[4] * t876);
+        let t952 = P::mul_add(platform_velocity[5], t876, platform_velocity[4] * t878);
+        let t953 = P::mul_add(platform_velocity[5], t901, platform_velocity[3] * t875);
+        let t954 = P::mul_add(platform_velocity[5], t875, platform_velocity[3] * t878);
+        let t955 = P::mul_add(platform_velocity[4], t901, platform_velocity[3] * t874);
+        let t956 = P::mul_add(platform_velocity[4], t874, platform_velocity[3] * t877);
+        // mass of payload and platform-side leg ends
+        let t957 = P::triple([t897, c(0.0), c(0.0)]);
+        // mass matrix M_p of the platform
+        let t958 = t859 - P::lane(t812, 1);
+        mass_matrix_p[0][4] = t958;
+        mass_matrix_p[4][0] = t958;
+        let t959 = t861 - P::lane(t813, 2);
+        mass_matrix_p[1][5] = t959;
+        mass_matrix_p[5][1] = t959;
+        let t960 = t860 - P::lane(t816, 0);
+        mass_matrix_p[2][3] = t960;
+        mass_matrix_p[3][2] = t960;
+        let t961 = P::lane(t605, 1) - t874;
+        mass_matrix_p[3][4] = t961;
+        mass_matrix_p[4][3] = t961;
+        let t962 = P::lane(t605, 2) - t875;
+        mass_matrix_p[3][5] = t962;
+        mass_matrix_p[5][3] = t962;
+        let t963 = P::lane(t733, 2) - t876;
+        mass_matrix_p[4][5] = t963;
+        mass_matrix_p[5][4] = t963;
+        // mass matrix of the legs
+        let t964 = -P::lane(t812, 0);
+        mass_matrix_p[0][3] = t964;
+        mass_matrix_p[3][0] = t964;
+        let t965 = -P::lane(t813, 1);
+        mass_matrix_p[1][4] = t965;
+        mass_matrix_p[4][1] = t965;
+        let t966 = -P::lane(t816, 2);
+        mass_matrix_p[2][5] = t966;
+        mass_matrix_p[5][2] = t966;
+        // mass matrix M_p of the platform
+        let t967 = -(P::lane(t812, 2) + t860);
+        mass_matrix_p[0][5] = t967;
+        mass_matrix_p[5][0] = t967;
+        let t968 = -(P::lane(t813, 0) + t859);
+        mass_matrix_p[1][3] = t968;
+        mass_matrix_p[3][1] = t968;
+        let t969 = -(P::lane(t816, 1) + t861);
+        mass_matrix_p[2][4] = t969;
+        mass_matrix_p[4][2] = t969;
+        mass_matrix_p[0][0] = P::lane(t598 + t957, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t598, 1);
+        mass_matrix_p[0][2] = P::lane(t598, 2);
+        mass_matrix_p[1][0] = P::lane(t598, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t945, 1);
+        (
+            t203, t205, t207, t256, t257, t258, t598, t605, t711, t712, t713, t718, t724, t725,
+            t726, t733, t743, t744, t745, t750, t751, t752, t832, t847, t849, t862, t874, t875,
+            t906, t913, t914, t915, t916, t917, t918, t919, t920, t921, t922, t923, t924, t925,
+            t926, t927, t928, t929, t930, t931, t933, t934, t935, t936, t937, t938, t939, t940,
+            t941, t942, t943, t944, t946, t947, t948, t949, t950, t951, t952, t953, t954, t955,
+            t956,
+        )
+    };
+    {
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t718, 2);
+        mass_matrix_p[2][0] = P::lane(t598, 2);
+        mass_matrix_p[2][1] = P::lane(t718, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t946, 2);
+        mass_matrix_p[3][3] = t919 - t862 + P::lane(t605, 0);
+        mass_matrix_p[4][4] = P::lane(t733, 1) + (t919 - t847);
+        mass_matrix_p[5][5] = P::lane(t832, 2) + (t919 - t849);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][0] = P::lane(t724, 0);
+        coriolis_matrix_p[0][1] = P::lane(t724, 1);
+        coriolis_matrix_p[0][2] = P::lane(t724, 2);
+        coriolis_matrix_p[0][3] = -P::lane(t750, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t942 - P::lane(t750, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t750, 2) + t943);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][0] = P::lane(t725, 0);
+        coriolis_matrix_p[1][1] = P::lane(t725, 1);
+        coriolis_matrix_p[1][2] = P::lane(t725, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][3] = -(t942 + P::lane(t751, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t751, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t944 - P::lane(t751, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][0] = P::lane(t726, 0);
+        coriolis_matrix_p[2][1] = P::lane(t726, 1);
+        coriolis_matrix_p[2][2] = P::lane(t726, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[2][3] = t943 - P::lane(t752, 0);
+        coriolis_matrix_p[2][4] = -(t944 + P::lane(t752, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t752, 2);
+        coriolis_matrix_p[3][0] = P::lane(t711, 0);
+        coriolis_matrix_p[3][1] = P::lane(t711, 1);
+        coriolis_matrix_p[3][2] = P::lane(t711, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = t950 + P::lane(t743, 0);
+        coriolis_matrix_p[3][4] = P::lane(t743, 1) - t951;
+        coriolis_matrix_p[3][5] = P::lane(t743, 2) + t952;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[4][0] = P::lane(t712, 0);
+        coriolis_matrix_p[4][1] = P::lane(t712, 1);
+        coriolis_matrix_p[4][2] = P::lane(t712, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[4][3] = t953 + P::lane(t744, 0);
+        coriolis_matrix_p[4][4] = P::lane(t744, 1) - P::mul_sub(platform_velocity[5], t874, t906);
+        coriolis_matrix_p[4][5] = P::lane(t744, 2) - t954;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[5][0] = P::lane(t713, 0);
+        coriolis_matrix_p[5][1] = P::lane(t713, 1);
+        coriolis_matrix_p[5][2] = P::lane(t713, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[5][3] = P::lane(t745, 0) - t955;
+        coriolis_matrix_p[5][4] = P::lane(t745, 1) + t956;
+        coriolis_matrix_p[5][5] = P::lane(t745, 2) + P::mul_sub(platform_velocity[4], t875, t906);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t203, 0);
+        jacobian_dp[0][1] = P::lane(t205, 0);
+        jacobian_dp[0][2] = P::lane(t207, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t920, 0);
+        jacobian_dp[0][4] = P::lane(t922, 0);
+        jacobian_dp[0][5] = P::lane(t924, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t203, 1);
+        jacobian_dp[1][1] = P::lane(t205, 1);
+        jacobian_dp[1][2] = P::lane(t207, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t920, 1);
+        jacobian_dp[1][4] = P::lane(t922, 1);
+        jacobian_dp[1][5] = P::lane(t924, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t203, 2);
+        jacobian_dp[2][1] = P::lane(t205, 2);
+        jacobian_dp[2][2] = P::lane(t207, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t920, 2);
+        jacobian_dp[2][4] = P::lane(t922, 2);
+        jacobian_dp[2][5] = P::lane(t924, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t256, 0);
+        jacobian_dp[3][1] = P::lane(t257, 0);
+        jacobian_dp[3][2] = P::lane(t258, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t921, 0);
+        jacobian_dp[3][4] = P::lane(t923, 0);
+        jacobian_dp[3][5] = P::lane(t925, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t256, 1);
+        jacobian_dp[4][1] = P::lane(t257, 1);
+        jacobian_dp[4][2] = P::lane(t258, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t921, 1);
+        jacobian_dp[4][4] = P::lane(t923, 1);
+        jacobian_dp[4][5] = P::lane(t925, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t256, 2);
+        jacobian_dp[5][1] = P::lane(t257, 2);
+        jacobian_dp[5][2] = P::lane(t258, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t921, 2);
+        jacobian_dp[5][4] = P::lane(t923, 2);
+        jacobian_dp[5][5] = P::lane(t925, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t947, 0);
+        mass_matrix_b[0][1] = P::lane(t947, 1);
+        mass_matrix_b[0][2] = P::lane(t947, 2);
+        mass_matrix_b[0][3] = P::lane(t933, 0);
+        mass_matrix_b[0][4] = P::lane(t933, 1);
+        mass_matrix_b[0][5] = P::lane(t933, 2);
+        mass_matrix_b[1][0] = P::lane(t948, 0);
+        mass_matrix_b[1][1] = P::lane(t948, 1);
+        mass_matrix_b[1][2] = P::lane(t948, 2);
+        mass_matrix_b[1][3] = P::lane(t934, 0);
+        mass_matrix_b[1][4] = P::lane(t934, 1);
+        mass_matrix_b[1][5] = P::lane(t934, 2);
+        mass_matrix_b[2][0] = P::lane(t949, 0);
+        mass_matrix_b[2][1] = P::lane(t949, 1);
+        mass_matrix_b[2][2] = P::lane(t949, 2);
+        mass_matrix_b[2][3] = P::lane(t935, 0);
+        mass_matrix_b[2][4] = P::lane(t935, 1);
+        mass_matrix_b[2][5] = P::lane(t935, 2);
+        mass_matrix_b[3][0] = -P::lane(t936, 0);
+        mass_matrix_b[3][1] = -P::lane(t936, 1);
+        mass_matrix_b[3][2] = -P::lane(t936, 2);
+        mass_matrix_b[3][3] = -P::lane(t913, 0);
+        mass_matrix_b[3][4] = -P::lane(t913, 1);
+        mass_matrix_b[3][5] = -P::lane(t913, 2);
+        mass_matrix_b[4][0] = -P::lane(t937, 0);
+        mass_matrix_b[4][1] = -P::lane(t937, 1);
+        mass_matrix_b[4][2] = -P::lane(t937, 2);
+        mass_matrix_b[4][3] = -P::lane(t914, 0);
+        mass_matrix_b[4][4] = -P::lane(t914, 1);
+        mass_matrix_b[4][5] = -P::lane(t914, 2);
+        mass_matrix_b[5][0] = -P::lane(t938, 0);
+        mass_matrix_b[5][1] = -P::lane(t938, 1);
+        mass_matrix_b[5][2] = -P::lane(t938, 2);
+        mass_matrix_b[5][3] = -P::lane(t915, 0);
+        mass_matrix_b[5][4] = -P::lane(t915, 1);
+        mass_matrix_b[5][5] = -P::lane(t915, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[0][0] = P::lane(t724, 0);
+        coriolis_matrix_b[0][1] = P::lane(t724, 1);
+        coriolis_matrix_b[0][2] = P::lane(t724, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = P::lane(t939, 0);
+        coriolis_matrix_b[0][4] = P::lane(t939, 1);
+        coriolis_matrix_b[0][5] = P::lane(t939, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[1][0] = P::lane(t725, 0);
+        coriolis_matrix_b[1][1] = P::lane(t725, 1);
+        coriolis_matrix_b[1][2] = P::lane(t725, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[1][3] = P::lane(t940, 0);
+        coriolis_matrix_b[1][4] = P::lane(t940, 1);
+        coriolis_matrix_b[1][5] = P::lane(t940, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[2][0] = P::lane(t726, 0);
+        coriolis_matrix_b[2][1] = P::lane(t726, 1);
+        coriolis_matrix_b[2][2] = P::lane(t726, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[2][3] = P::lane(t941, 0);
+        coriolis_matrix_b[2][4] = P::lane(t941, 1);
+        coriolis_matrix_b[2][5] = P::lane(t941, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[3][0] = P::lane(t711, 0);
+        coriolis_matrix_b[3][1] = P::lane(t711, 1);
+        coriolis_matrix_b[3][2] = P::lane(t711, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[3][3] = -P::lane(t916, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t916, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t916, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[4][0] = P::lane(t712, 0);
+        coriolis_matrix_b[4][1] = P::lane(t712, 1);
+        coriolis_matrix_b[4][2] = P::lane(t712, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[4][3] = -P::lane(t917, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t917, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t917, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[5][0] = P::lane(t713, 0);
+        coriolis_matrix_b[5][1] = P::lane(t713, 1);
+        coriolis_matrix_b[5][2] = P::lane(t713, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[5][3] = -P::lane(t918, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t918, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t918, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t203, 0);
+        jacobian_db[0][1] = P::lane(t205, 0);
+        jacobian_db[0][2] = P::lane(t207, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t926, 0);
+        jacobian_db[0][4] = P::lane(t928, 0);
+        jacobian_db[0][5] = P::lane(t930, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t203, 1);
+        jacobian_db[1][1] = P::lane(t205, 1);
+        jacobian_db[1][2] = P::lane(t207, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t926, 1);
+        jacobian_db[1][4] = P::lane(t928, 1);
+        jacobian_db[1][5] = P::lane(t930, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t203, 2);
+        jacobian_db[2][1] = P::lane(t205, 2);
+        jacobian_db[2][2] = P::lane(t207, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t926, 2);
+        jacobian_db[2][4] = P::lane(t928, 2);
+        jacobian_db[2][5] = P::lane(t930, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t256, 0);
+        jacobian_db[3][1] = P::lane(t257, 0);
+        jacobian_db[3][2] = P::lane(t258, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t927, 0);
+        jacobian_db[3][4] = P::lane(t929, 0);
+        jacobian_db[3][5] = P::lane(t931, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t256, 1);
+        jacobian_db[4][1] = P::lane(t257, 1);
+        jacobian_db[4][2] = P::lane(t258, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t927, 1);
+        jacobian_db[4][4] = P::lane(t929, 1);
+        jacobian_db[4][5] = P::lane(t931, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t256, 2);
+        jacobian_db[5][1] = P::lane(t257, 2);
+        jacobian_db[5][2] = P::lane(t258, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t927, 2);
+        jacobian_db[5][4] = P::lane(t929, 2);
+        jacobian_db[5][5] = P::lane(t931, 2);
+    }
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t43 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    let t44 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
+    // legs 4, 5, 6: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+    // constant and copied elements
+    let t48 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t49 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // velocity of the platform origin relative to the base
+    let t55 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular acceleration of the platform
+    let t56 = t1 * P::splat(platform_acceleration[4]);
+    // angular velocity of the platform
+    let t57 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 2, 3: actuator length d
+    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // angular velocity of the base
+    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t55);
+    // angular acceleration of the platform
+    let t62 = mul_add(t2, P::splat(platform_acceleration[3]), t56);
+    // angular velocity of the platform
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t57);
+    // legs 4, 5, 6: actuator length d
+    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    // platform origin seen from the base
+    let t65 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // rotation of the platform seen from the base
+    let t67 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    // angular acceleration of the platform
+    let t69 = mul_add(t5, P::splat(platform_acceleration[5]), t62);
+    // angular velocity of the platform relative to the base
+    let t70 = t60 - t63;
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t73 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // angular acceleration of the base
+    let t74 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // velocity of the platform origin relative to the base
+    let t75 = mul_add(t65, t72, neg_mul_add(t58, t71, t68));
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular acceleration of the platform
+    let t77 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    let t78 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    // rotation of the platform seen from the base
+    let t79 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t80 = mul_sub(t63, t67, t14 * t73);
+    // rotation of the platform seen from the base
+    let t81 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // angular acceleration of the base
+    let t83 = mul_add(t5, P::splat(base_acceleration[5]), t74);
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t64;
+    // rotation of the platform seen from the base
+    let t85 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t86 = mul_sub(t63, t76, t15 * t73);
+    // rotation of the platform seen from the base
+    let t87 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t88 = mul_sub(t63, t81, t17 * t73);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t89 = neg_mul_add(t32, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t91 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    // acceleration of the base origin less gravity
+    let t92 = base_acceleration[0] - parameters.gravity[0];
+    let t93 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t94 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t95 = t90 * t91;
+    // acceleration of the platform origin less gravity
+    let t96 = parameters.gravity[0] - platform_acceleration[0];
+    let t97 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = mul_add(t73, t80, mul_sub(t78, t79, t67 * t77));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t99 = neg_mul_add(t37, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t100 = mul_add(t37, P::splat(P::lane(t70, 0)), t89);
+    // angular velocity of the base
+    let t101 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t102 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t103 = mul_add(t73, t86, mul_sub(t78, t85, t76 * t77));
+    let t104 = P::triple([P::lane(t80, 2), P::lane(t80, 0), P::lane(t80, 1)]);
+    let t105 = mul_add(t73, t88, mul_sub(t78, t87, t77 * t81));
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t106 = t42 * t82;
+    // acceleration of the base origin less gravity
+    let t107 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t108 = mul_add(t101, t101, t94 * t94);
+    // acceleration of the platform origin less gravity
+    let t109 = parameters.gravity[2] - platform_acceleration[2];
+    // acceleration per platform coordinate of points of the platform
+    let t110 = neg_mul_add(t102, t104, t98);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t111 = mul_add(t33, P::splat(P::lane(t70, 2)), t99);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t112 = neg_mul_add(t39, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t33, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // angular acceleration of the base
+    let t114 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t115 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    let t116 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t117 = t41 * t82;
+    // acceleration of the base origin less gravity
+    let t118 = mul_add(t5, P::splat(t107), mul_add(t2, P::splat(t92), t93));
+    // acceleration per base coordinate of points that move with the base
+    let t119 = mul_sub(t90, t91, t114);
+    // angular acceleration of the base
+    let t120 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
+    // acceleration of the platform origin less gravity
+    let t122 = mul_add(t5, P::splat(t109), mul_add(t2, P::splat(t96), t97));
+    // acceleration per platform coordinate of points of the platform
+    let t123 = neg_mul_add(t102, t115, t103);
+    let t124 = neg_mul_add(t102, t116, t105);
+    // acceleration per base coordinate of points that move with the base
+    let t125 = t120 + t121;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t126 = neg_mul_add(t45, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t127 = mul_add(t45, P::splat(P::lane(t70, 0)), t112);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t128 = mul_add(t32, P::splat(P::lane(t70, 1)), t113);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t129 = mul_add(t41, P::splat(P::lane(t60, 2)), t100);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t130 = t46 * t84;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t131 = t47 * t82;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t132 = t9 * P::splat(P::lane(t110, 1));
+    let t133 = t21 * P::splat(P::lane(t108, 1));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t134 = mul_add(t36, P::splat(P::lane(t70, 2)), t126);
+    let t135 = neg_mul_add(t36, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t136 = mul_add(t47, P::splat(P::lane(t60, 1)), t111);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t137 = t50 * t84;
+    // legs 1, 2, 3: actuator velocity d'
+    let t138 = mul_add(t128, t131, mul_add(t111, t117, t100 * t106));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t139 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t129);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t140 = t9 * P::splat(P::lane(t110, 0));
+    let t141 = t21 * P::splat(P::lane(t119, 0));
+    let t142 = neg_mul_add(t13, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t143 = mul_add(t44, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // constant and copied elements
+    let t144 =
+        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t145 = mul_add(t39, P::splat(P::lane(t70, 1)), t135);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t146 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t136);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t147 = mul_add(t50, P::splat(P::lane(t60, 2)), t127);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t148 = mul_add(t42, P::splat(P::lane(t60, 0)), t128);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t149 = t53 * t84;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t150 = neg_mul_add(t13, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t151 = mul_add(t44, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    let t152 = t142 - mul_add(t12, P::splat(P::lane(t123, 1)), t132);
+    let t153 = mul_sub(t38, P::splat(P::lane(t125, 1)), t133) + t143;
+    let t154 = t9 * P::splat(P::lane(t110, 2));
+    let t155 = t21 * P::splat(P::lane(t125, 2));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t156 = t18 * P::splat(P::lane(t110, 1));
+    let t157 = t43 * P::splat(P::lane(t108, 1));
+    // constant and copied elements
+    let t158 =
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t159 = mul_add(t53, P::splat(P::lane(t60, 1)), t134);
+    // second moment of payload and platform-side leg ends
+    let t160 = mul_add(t12 * t12, t158, t19 * t19 * t144);
+    let t161 = mul_add(t9 * t12, t158, t18 * t19 * t144);
+    let t162 = mul_add(t12 * t13, t158, t19 * t20 * t144);
+    // legs 4, 5, 6: actuator velocity d'
+    let t163 = mul_add(t145, t149, mul_add(t134, t137, t127 * t130));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t164 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t147);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t165 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t148);
+    let t166 = t82 * neg_mul_add(t106, t138, t139);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t167 = t150 - mul_add(t12, P::splat(P::lane(t123, 0)), t140);
+    let t168 = t151 - mul_sub(t38, P::splat(P::lane(t108, 0)), t141);
+    let t169 = t152 + t153;
+    let t170 = neg_mul_add(t13, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t171 = neg_mul_add(t44, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t172 = t18 * P::splat(P::lane(t110, 0));
+    let t173 = t43 * P::splat(P::lane(t119, 0));
+    let t174 = neg_mul_add(t20, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t175 = mul_add(t49, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t176 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t159);
+    let t177 = mul_add(t46, P::splat(P::lane(t60, 0)), t145);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t178 = t82 * neg_mul_add(t117, t138, t146);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t179 = t167 + t168;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t180 = neg_mul_add(t20, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t181 = mul_add(t49, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    // legs 1, 2, 3: actuator acceleration d''
+    let t182 = t170 - mul_add(t12, P::splat(P::lane(t123, 2)), t154);
+    let t183 = mul_add(t38, P::splat(P::lane(t119, 2)), t155) + t171;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t184 = t174 - mul_add(t19, P::splat(P::lane(t123, 1)), t156);
+    let t185 = mul_sub(t48, P::splat(P::lane(t125, 1)), t157) + t175;
+    let t186 = t18 * P::splat(P::lane(t110, 2));
+    let t187 = t43 * P::splat(P::lane(t125, 2));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t188 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t177);
+    // second moment of payload and platform-side leg ends
+    let t189 = mul_add(t158, t9 * t9, t144 * (t18 * t18));
+    let t190 = mul_add(t158, t9 * t13, t144 * (t18 * t20));
+    let t191 = P::triple([P::lane(t160, 0), P::lane(t161, 0), P::lane(t162, 0)]);
+    let t192 = P::triple([P::lane(t160, 1), P::lane(t161, 1), P::lane(t162, 1)]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t193 = t84 * neg_mul_add(t130, t163, t164);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t194 = t82 * neg_mul_add(t131, t138, t165);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t195 = t182 + t183;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t196 = t180 - mul_add(t19, P::splat(P::lane(t123, 0)), t172);
+    let t197 = t181 - mul_sub(t48, P::splat(P::lane(t108, 0)), t173);
+    let t198 = t184 + t185;
+    let t199 = neg_mul_add(t20, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t200 = neg_mul_add(t49, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // second moment of payload and platform-side leg ends
+    let t201 = P::triple([P::lane(t160, 2), P::lane(t161, 2), P::lane(t162, 2)]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t202 = t84 * neg_mul_add(t137, t163, t176);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t203 = mul_add(t131, t195, mul_add(t117, t179, t106 * t169));
+    let t204 = mul_add(t194, t194, mul_add(t178, t178, t166 * t166));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t205 = t196 + t197;
+    // second moment of payload and platform-side leg ends
+    let t206 = t191 + t192 + t201;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t207 = t199 - mul_add(t19, P::splat(P::lane(t123, 2)), t186);
+    let t208 = mul_add(t48, P::splat(P::lane(t119, 2)), t187) + t200;
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t209 = t84 * neg_mul_add(t149, t163, t188);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t210 = neg_mul_add(t59, t204, t203);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t211 = t207 + t208;
+    // second moment of payload and platform-side leg ends
+    let t212 = mul_add(t158, t13 * t13, t144 * (t20 * t20));
+    let t213 = P::lane(t190, 1) + P::lane(t190, 0);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t214 = mul_add(t209, t209, mul_add(t202, t202, t193 * t193));
+    // second moment of payload and platform-side leg ends
+    let t215 = P::triple([P::lane(t206, 1), P::lane(t189, 2), P::lane(t190, 2)]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t216 = mul_add(t149, t211, mul_add(t137, t205, t130 * t198));
+    // second moment of payload and platform-side leg ends
+    let t217 = P::triple([c(0.0), P::lane(t189, 1) + P::lane(t189, 0), t213]);
+    let t218 = t215 + t217;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t219 = t138 * w(2.0);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t220 = neg_mul_add(t64, t214, t216);
+    // constant and copied elements
+    let t221 =
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+    let t222 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t223 = t221 * t222;
+    // constant and copied elements
+    let t224 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+    let t225 =
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t226 = t158 * t224;
+    // second moment of payload and platform-side leg ends
+    let t227 = P::triple([P::lane(t206, 2), P::lane(t218, 2), P::lane(t212, 2)]);
+    let t228 = P::triple([c(0.0), c(0.0), P::lane(t212, 1) + P::lane(t212, 0)]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t229 = t82 * mul_add(t178, t219, neg_mul_add(t117, t210, t179));
+    let t230 = t82 * mul_add(t166, t219, neg_mul_add(t106, t210, t169));
+    let t231 = t82 * mul_add(t194, t219, neg_mul_add(t131, t210, t195));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t232 = t163 * w(2.0);
+    // constant and copied elements
+    let t233 =
+        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+    let t234 =
+        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+    let t235 =
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+    // second moment of payload and platform-side leg ends
+    let t236 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t237 = t82 * t223;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t238 = t233 * t234;
+    // constant and copied elements
+    let t239 =
+        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+    let t240 =
+        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+    // second moment of payload and platform-side leg ends
+    let t241 = t236 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t242 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t243 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t244 = t144 * t239;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t245 = mul_add(t224, t226, mul_add(t222, t223, t225) + t235);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t246 = t82 * t226;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t247 = t84 * mul_add(t202, t232, neg_mul_add(t137, t220, t205));
+    let t248 = t84 * mul_add(t193, t232, neg_mul_add(t130, t220, t198));
+    let t249 = t84 * mul_add(t209, t232, neg_mul_add(t149, t220, t211));
+    // second moment of payload and platform-side leg ends
+    let t250 = P::triple([P::lane(t206, 0), P::lane(t218, 1), P::lane(t227 + t228, 2)]);
+    // first moment of payload and platform-side leg ends
+    let t251 = mul_add(t12, t158, t19 * t144);
+    let t252 = mul_add(t9, t158, t18 * t144);
+    let t253 = mul_add(t13, t158, t20 * t144);
+    // second moment of payload and platform-side leg ends
+    let t254 = P::triple([P::lane(t206, 1), P::lane(t218, 2), P::lane(t206, 2)]);
+    // constant and copied elements
+    let t255 =
+        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t256 = t84 * t238;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t257 = mul_add(t167, t246, mul_add(t168, t237, t226 * t229));
+    let t258 = mul_add(t152, t246, mul_add(t153, t237, t226 * t230));
+    let t259 = mul_add(t182, t246, mul_add(t183, t237, t226 * t231));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t260 = t82 * t245;
+    // constant and copied elements
+    let t261 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t262 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // second moment of payload and platform-side leg ends
+    let t263 = mul_add(P::splat(t241), w(0.5), t250) - t262;
+    // constant and copied elements
+    let t264 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t265 = mul_add(t239, t244, mul_add(t234, t238, t240) + t255);
+    // second moment of payload and platform-side leg ends
+    let t266 = mul_add(t242 * t243, P::splat(parameters.payload_mass), t254) - t264;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t267 = t84 * t244;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t268 = neg_mul_add(t229, t260, t257);
+    let t269 = neg_mul_add(t230, t260, t258);
+    let t270 = neg_mul_add(t231, t260, t259);
+    // second moment of payload and platform-side leg ends
+    let t271 = mul_add(P::splat(parameters.payload_mass), t261 * t261, t263);
+    // first moment of payload and platform-side leg ends
+    let t272 = P::triple([P::lane(t251, 0), P::lane(t252, 0), P::lane(t253, 0)]);
+    let t273 = P::triple([P::lane(t251, 1), P::lane(t252, 1), P::lane(t253, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t274 = mul_add(t196, t267, mul_add(t197, t256, t244 * t247));
+    let t275 = mul_add(t184, t267, mul_add(t185, t256, t244 * t248));
+    let t276 = mul_add(t207, t267, mul_add(t208, t256, t244 * t249));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t277 = t84 * t265;
+    // first moments by platform coordinate of the payload's inertia force
+    let t278 = t110 * P::splat(P::lane(t266, 0));
+    // first moment of payload and platform-side leg ends
+    let t279 = P::triple([P::lane(t251, 2), P::lane(t252, 2), P::lane(t253, 2)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t280 = neg_mul_add(t247, t277, t274);
+    let t281 = neg_mul_add(t248, t277, t275);
+    let t282 = neg_mul_add(t249, t277, t276);
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t283 = mul_sub(t33, t270, t37 * t269);
+    let t284 = mul_sub(t37, t268, t32 * t270);
+    let t285 = mul_sub(t32, t269, t33 * t268);
+    // first moments by platform coordinate of the payload's inertia force
+    let t286 = mul_add(t123, P::splat(P::lane(t271, 0)), t278);
+    // inertia less external wrench that the actuators must balance
+    let t287 = t1 * P::splat(external_wrench[1]);
+    // first moment of payload and platform-side leg ends
+    let t288 = mul_add(P::splat(parameters.payload_mass), t261, t272 + t273 + t279);
+    // first moments by platform coordinate of the payload's inertia force
+    let t289 = mul_add(t124, P::splat(P::lane(t266, 2)), t286);
+    // inertia less external wrench that the actuators must balance
+    let t290 = mul_add(t2, P::splat(external_wrench[0]), t287);
+    // first moments by platform coordinate of the payload's inertia force
+    let t291 = t110 * P::splat(P::lane(t271, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t292 = neg_mul_add(t45, t281, mul_add(t36, t282, t283));
+    let t293 = neg_mul_add(t39, t282, mul_add(t45, t280, t284));
+    let t294 = neg_mul_add(t36, t280, mul_add(t39, t281, t285));
+    // first moments by platform coordinate of the payload's inertia force
+    let t295 = mul_sub(t122, P::splat(P::lane(t288, 0)), t289);
+    let t296 = mul_add(t123, P::splat(P::lane(t266, 0)), t291);
+    // inertia less external wrench that the actuators must balance
+    let t297 = mul_add(t5, P::splat(external_wrench[2]), t290);
+    // first moments by platform coordinate of the payload's inertia force
+    let t298 = t110 * P::splat(P::lane(t266, 1));
+    let t299 = mul_add(t124, P::splat(P::lane(t266, 1)), t296);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t300 = P::triple([P::lane(t292, 0), P::lane(t293, 0), P::lane(t294, 0)]);
+    let t301 = P::triple([P::lane(t292, 1), P::lane(t293, 1), P::lane(t294, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t302 = mul_sub(t122, P::splat(P::lane(t288, 1)), t299);
+    let t303 = mul_add(t123, P::splat(P::lane(t266, 2)), t298);
+    // inertia less external wrench that the actuators must balance
+    let t304 = P::triple([P::lane(t297, 2), P::lane(t297, 0), P::lane(t297, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t305 = P::triple([P::lane(t295, 2), P::lane(t295, 0), P::lane(t295, 1)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t306 = P::triple([P::lane(t292, 2), P::lane(t293, 2), P::lane(t294, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t307 = mul_add(P::splat(parameters.payload_com[0]), t304, t305);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t308 = t300 + t301 + t306;
+    // first moments by platform coordinate of the payload's inertia force
+    let t309 = mul_add(t124, P::splat(P::lane(t271, 2)), t303);
+    // mass of payload and platform-side leg ends
+    let t310 = t144 + t158;
+    // first moments by platform coordinate of the payload's inertia force
+    let t311 = mul_sub(t122, P::splat(P::lane(t288, 2)), t309);
+    let t312 = P::triple([P::lane(t302, 2), P::lane(t302, 0), P::lane(t302, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t313 = t268 + t280;
+    // inertia less external wrench that the actuators must balance
+    let t314 = mul_add(P::splat(parameters.payload_com[1]), t304, t312);
+    // inertia force less weight, without the actuators' own shares
+    let t315 = t269 + t281;
+    // inertia less external wrench that the actuators must balance
+    let t316 = P::triple([P::lane(t307, 2), P::lane(t307, 0), P::lane(t307, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t317 = t270 + t282;
+    // inertia less external wrench that the actuators must balance
+    let t318 = mul_add(t85, t316, neg_mul_add(t76, t307, t308));
+    // first moments by platform coordinate of the payload's inertia force
+    let t319 = P::triple([P::lane(t311, 2), P::lane(t311, 0), P::lane(t311, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t320 = P::triple([P::lane(t313, 0), P::lane(t315, 0), P::lane(t317, 0)]);
+    let t321 = P::triple([P::lane(t313, 1), P::lane(t315, 1), P::lane(t317, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t322 = mul_add(P::splat(parameters.payload_com[2]), t304, t319);
+    let t323 = P::triple([P::lane(t314, 2), P::lane(t314, 0), P::lane(t314, 1)]);
+    // mass of payload and platform-side leg ends
+    let t324 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
+    // inertia less external wrench that the actuators must balance
+    let t325 = neg_mul_add(t79, t323, mul_sub(t67, t314, t318));
+    // inertia force less weight, without the actuators' own shares
+    let t326 = P::triple([P::lane(t313, 2), P::lane(t315, 2), P::lane(t317, 2)]);
+    // mass of payload and platform-side leg ends
+    let t327 = parameters.payload_mass + t324;
+    // inertia force less weight, without the actuators' own shares
+    let t328 = neg_mul_add(t122, P::splat(t327), t320 + t321 + t326);
+    // inertia less external wrench that the actuators must balance
+    let t329 = P::triple([P::lane(t322, 2), P::lane(t322, 0), P::lane(t322, 1)]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t330 = mul_sub(t33, t131, t37 * t106);
+    // inertia less external wrench that the actuators must balance
+    let t331 = neg_mul_add(t87, t329, mul_add(t81, t322, t325));
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t332 = mul_sub(t36, t149, t45 * t130);
+    // inertia force less weight, without the actuators' own shares
+    let t333 = mul_add(t123, P::splat(P::lane(t288, 0)), t328);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t334 = mul_sub(t37, t117, t32 * t131);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t335 = mul_sub(t45, t137, t39 * t149);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t336 = mul_sub(t32, t106, t33 * t117);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t337 = mul_sub(t39, t130, t36 * t137);
+    // inertia less external wrench that the actuators must balance
+    let t338 = mul_add(t2, P::splat(external_wrench[3]), t331);
+    // inertia force less weight, without the actuators' own shares
+    let t339 = mul_add(t110, P::splat(P::lane(t288, 1)), t333);
+    // inertia less external wrench that the actuators must balance
+    let t340 = mul_add(t1, P::splat(external_wrench[4]), t338);
+    // inertia force less weight, without the actuators' own shares
+    let t341 = mul_add(t124, P::splat(P::lane(t288, 2)), t339);
+    // inertia less external wrench that the actuators must balance
+    let t342 = mul_add(t5, P::splat(external_wrench[5]), t340);
+    let t343 = t341 - t297;
+    let t344 = -P::lane(t342, 0);
+    let t345 = -P::lane(t342, 1);
+    let t346 = -P::lane(t342, 2);
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_general(
+        &[
+            [P::lane(t117, 0), P::lane(t117, 1), P::lane(t117, 2), P::lane(t137, 0), P::lane(t137, 1), P::lane(t137, 2)],
+            [P::lane(t106, 0), P::lane(t106, 1), P::lane(t106, 2), P::lane(t130, 0), P::lane(t130, 1), P::lane(t130, 2)],
+            [P::lane(t131, 0), P::lane(t131, 1), P::lane(t131, 2), P::lane(t149, 0), P::lane(t149, 1), P::lane(t149, 2)],
+            [P::lane(t330, 0), P::lane(t330, 1), P::lane(t330, 2), P::lane(t332, 0), P::lane(t332, 1), P::lane(t332, 2)],
+            [P::lane(t334, 0), P::lane(t334, 1), P::lane(t334, 2), P::lane(t335, 0), P::lane(t335, 1), P::lane(t335, 2)],
+            [P::lane(t336, 0), P::lane(t336, 1), P::lane(t336, 2), P::lane(t337, 0), P::lane(t337, 1), P::lane(t337, 2)],
+        ],
+        &[P::lane(t343, 0), P::lane(t343, 1), P::lane(t343, 2), t344, t345, t346],
+    );
+    // constant and copied elements
+    let t347 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    let t348 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t349 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t350 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    let t351 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t352 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t353 = mul_add(t131, t182, mul_add(t117, t167, t106 * t152));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t354 = mul_add(t149, t207, mul_add(t137, t196, t130 * t184));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t355 = mul_add(t59 - t347, t351, t138 * t348);
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t356 = mul_add(t64 - t349, t352, t163 * t350);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t357 = mul_add(t131, t183, mul_add(t117, t168, t106 * t153));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t358 = mul_add(t149, t208, mul_add(t137, t197, t130 * t185));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t359 = mul_add(t131, t231, mul_add(t117, t229, t106 * t230));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t360 = mul_add(t149, t249, mul_add(t137, t247, t130 * t248));
+    // legs 1, 2, 3: actuator forces F
+    let t361 = mul_add(t237, t357, mul_sub(t246, t353, t355));
+    // legs 4, 5, 6: actuator forces F
+    let t362 = mul_add(t256, t358, mul_sub(t267, t354, t356));
+    // force along the actuator that balances the remaining wrench
+    let t363 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
+    // legs 1, 2, 3: actuator forces F
+    let t364 = t363 - neg_mul_add(t260, t359, t361);
+    // force along the actuator that balances the remaining wrench
+    let t365 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
+    // legs 4, 5, 6: actuator forces F
+    let t366 = t365 - neg_mul_add(t277, t360, t362);
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t364, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t364, 1);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t364, 2);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t366, 0);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t366, 1);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t366, 2);
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn actuator_geometry_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    rod_alignment: &mut [P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    let t5 = t1 * P::splat(platform_rotation[1][2]);
+    // constant and copied elements
+    let t6 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    let t9 = mul_add(t2, P::splat(platform_rotation[0][2]), t5);
+    // platform origin seen from the base
+    let t10 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t11 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    let t12 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t6, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t6, P::splat(platform_rotation[2][0]), t8);
+    let t16 = mul_add(t6, P::splat(platform_rotation[2][2]), t9);
+    // platform origin seen from the base
+    let t17 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t6, P::splat(platform_position[2] - base_position[2]), t17);
+    // constant and copied elements
+    let t23 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t24 = t11 * P::splat(P::lane(t14, 0));
+    let t25 = t11 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    let t27 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = mul_add(t19, P::splat(P::lane(t15, 1)), t26);
+    // constant and copied elements
+    let t30 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    let t31 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t32 = mul_add(t13, P::splat(P::lane(t15, 0)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 0)), t27);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t34 = t11 * P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t35 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: platform joint from the base point
+    let t36 = mul_sub(t18, P::splat(P::lane(t16, 1)), t21) + t28;
+    // legs 4, 5, 6: platform joint from the base point
+    let t37 = mul_sub(t20, P::splat(P::lane(t16, 1)), t23) + t29;
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    let t39 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t40 = mul_add(t13, P::splat(P::lane(t15, 2)), t34);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + mul_sub(t18, P::splat(P::lane(t16, 0)), t30);
+    // legs 4, 5, 6: platform joint from the base point
+    let t43 = t33 + mul_sub(t20, P::splat(P::lane(t16, 0)), t31);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t36;
+    // legs 4, 5, 6: platform joint from the base point
+    let t45 = P::splat(P::lane(t22, 1)) + t37;
+    // legs 1, 2, 3: platform joint from the base point
+    let t46 = t42 + P::splat(P::lane(t22, 0));
+    // legs 4, 5, 6: platform joint from the base point
+    let t47 = t43 + P::splat(P::lane(t22, 0));
+    // legs 1, 2, 3: platform joint from the base point
+    let t48 = t40 + mul_sub(t18, P::splat(P::lane(t16, 2)), t38);
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = t41 + mul_sub(t20, P::splat(P::lane(t16, 2)), t39);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t50 = P::splat(platform_rotation[0][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t51 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 2, 3: platform joint from the base point
+    let t52 = P::splat(P::lane(t22, 2)) + t48;
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 2)) + t49;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t54 = P::splat(platform_rotation[1][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t55 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t56 = P::splat(platform_rotation[2][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t57 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t58 = mul_add(P::splat(platform_rotation[0][0]), t13, t50);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t59 = mul_add(P::splat(platform_rotation[0][0]), t19, t51);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t60 = mul_add(P::splat(platform_rotation[1][0]), t13, t54);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t61 = mul_add(P::splat(platform_rotation[1][0]), t19, t55);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t62 = mul_add(P::splat(platform_rotation[2][0]), t13, t56);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t63 = mul_add(P::splat(platform_rotation[2][0]), t19, t57);
+    // legs 1, 2, 3: actuator length d
+    let t64 = sqrt(mul_add(t52, t52, mul_add(t46, t46, t44 * t44)));
+    // legs 4, 5, 6: actuator length d
+    let t65 = sqrt(mul_add(t53, t53, mul_add(t47, t47, t45 * t45)));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t66 = mul_add(P::splat(platform_rotation[0][2]), t18, t58);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t67 = mul_add(P::splat(platform_rotation[0][2]), t20, t59);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t68 = mul_add(P::splat(platform_rotation[1][2]), t18, t60);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t69 = mul_add(P::splat(platform_rotation[1][2]), t20, t61);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t70 = mul_add(P::splat(platform_rotation[2][2]), t18, t62);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t71 = mul_add(P::splat(platform_rotation[2][2]), t20, t63);
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t72 = w(1.0) / t64;
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t73 = w(1.0) / t65;
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t74 = t44 * t72;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t75 = t45 * t73;
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t76 = t46 * t72;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t77 = t47 * t73;
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t78 = t52 * t72;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t79 = t53 * t73;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t80 = P::splat(base_rotation[0][1]) * t74;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t81 = P::splat(base_rotation[0][1]) * t75;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t82 = P::splat(base_rotation[1][1]) * t74;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t83 = P::splat(base_rotation[1][1]) * t75;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t84 = P::splat(base_rotation[2][1]) * t74;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t85 = P::splat(base_rotation[2][1]) * t75;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t86 = mul_add(P::splat(base_rotation[0][0]), t76, t80);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t87 = mul_add(P::splat(base_rotation[0][0]), t77, t81);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t88 = mul_add(P::splat(base_rotation[1][0]), t76, t82);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t89 = mul_add(P::splat(base_rotation[1][0]), t77, t83);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t90 = mul_add(P::splat(base_rotation[2][0]), t76, t84);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t91 = mul_add(P::splat(base_rotation[2][0]), t77, t85);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t92 = mul_add(P::splat(base_rotation[0][2]), t78, t86);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t93 = mul_add(P::splat(base_rotation[0][2]), t79, t87);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t94 = mul_add(P::splat(base_rotation[1][2]), t78, t88);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t95 = mul_add(P::splat(base_rotation[1][2]), t79, t89);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t96 = mul_add(P::splat(base_rotation[2][2]), t78, t90);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t97 = mul_add(P::splat(base_rotation[2][2]), t79, t91);
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t98 = mul_add(t78, t78, mul_add(t76, t76, t74 * t74));
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t99 = mul_add(t79, t79, mul_add(t77, t77, t75 * t75));
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t100 = mul_sub(t68, t96, t70 * t94);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t101 = mul_sub(t69, t97, t71 * t95);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t102 = mul_sub(t70, t92, t66 * t96);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t103 = mul_sub(t71, t93, t67 * t97);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t104 = mul_sub(t66, t94, t68 * t92);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t105 = mul_sub(t67, t95, t69 * t93);
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = P::lane(t98, 0);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = P::lane(t98, 1);
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = P::lane(t98, 2);
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = P::lane(t99, 0);
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = P::lane(t99, 1);
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = P::lane(t99, 2);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t64, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t64, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t64, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t65, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t65, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t65, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t92, 0);
+    jacobian_dp[0][1] = P::lane(t94, 0);
+    jacobian_dp[0][2] = P::lane(t96, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t100, 0);
+    jacobian_dp[0][4] = P::lane(t102, 0);
+    jacobian_dp[0][5] = P::lane(t104, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t92, 1);
+    jacobian_dp[1][1] = P::lane(t94, 1);
+    jacobian_dp[1][2] = P::lane(t96, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t100, 1);
+    jacobian_dp[1][4] = P::lane(t102, 1);
+    jacobian_dp[1][5] = P::lane(t104, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t92, 2);
+    jacobian_dp[2][1] = P::lane(t94, 2);
+    jacobian_dp[2][2] = P::lane(t96, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t100, 2);
+    jacobian_dp[2][4] = P::lane(t102, 2);
+    jacobian_dp[2][5] = P::lane(t104, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t93, 0);
+    jacobian_dp[3][1] = P::lane(t95, 0);
+    jacobian_dp[3][2] = P::lane(t97, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t101, 0);
+    jacobian_dp[3][4] = P::lane(t103, 0);
+    jacobian_dp[3][5] = P::lane(t105, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t93, 1);
+    jacobian_dp[4][1] = P::lane(t95, 1);
+    jacobian_dp[4][2] = P::lane(t97, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t101, 1);
+    jacobian_dp[4][4] = P::lane(t103, 1);
+    jacobian_dp[4][5] = P::lane(t105, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t93, 2);
+    jacobian_dp[5][1] = P::lane(t95, 2);
+    jacobian_dp[5][2] = P::lane(t97, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t101, 2);
+    jacobian_dp[5][4] = P::lane(t103, 2);
+    jacobian_dp[5][5] = P::lane(t105, 2);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    let t21 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t43 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    let t44 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
+    // legs 4, 5, 6: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+    // constant and copied elements
+    let t48 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t49 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // angular velocity of the platform
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // platform origin seen from the base
+    let t57 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    let t58 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // legs 1, 2, 3: actuator length d
+    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // angular velocity of the base
+    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // angular velocity of the platform
+    let t62 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    // angular acceleration of the base
+    let t63 = t1 * P::splat(base_acceleration[4]);
+    // legs 4, 5, 6: actuator length d
+    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    // rotation of the platform seen from the base
+    let t65 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t66 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    // angular velocity of the platform relative to the base
+    let t69 = t60 - t62;
+    // angular acceleration of the base
+    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t63);
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t73 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
+    // angular acceleration of the base
+    let t75 = mul_add(t5, P::splat(base_acceleration[5]), t70);
+    // acceleration per platform coordinate of points of the platform
+    let t76 = mul_sub(t62, t65, t14 * t73);
+    let t77 = mul_sub(t62, t66, t15 * t73);
+    let t78 = mul_sub(t62, t67, t17 * t73);
+    // angular velocity of the base
+    let t79 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t80 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    // acceleration of the base origin less gravity
+    let t81 = base_acceleration[0] - parameters.gravity[0];
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t83 = neg_mul_add(t32, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t64;
+    // acceleration of the base origin less gravity
+    let t85 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t86 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t87 = t79 * t80;
+    // acceleration of the platform origin less gravity
+    let t88 = t1 * P::splat(parameters.gravity[1]);
+    // angular velocity of the platform
+    let t89 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t90 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t91 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
+    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t83);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    // acceleration of the platform origin less gravity
+    let t94 = mul_add(t2, P::splat(parameters.gravity[0]), t88);
+    // acceleration per platform coordinate of points of the platform
+    let t95 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    let t96 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t97 = t42 * t82;
+    // acceleration of the base origin less gravity
+    let t98 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t99 = mul_add(t93, t93, t86 * t86);
+    // acceleration per platform coordinate of points of the platform
+    let t100 = mul_sub(t73, t76, t89 * t90);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t101 = mul_add(t33, P::splat(P::lane(t69, 2)), t91);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t102 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t103 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
+    // angular acceleration of the base
+    let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t105 = t41 * t82;
+    // acceleration of the base origin less gravity
+    let t106 = mul_add(t5, P::splat(t98), mul_add(t2, P::splat(t81), t85));
+    // acceleration per base coordinate of points that move with the base
+    let t107 = mul_sub(t79, t80, t104);
+    // angular acceleration of the base
+    let t108 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t109 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration of the platform origin less gravity
+    let t110 = mul_add(t5, P::splat(parameters.gravity[2]), t94);
+    // acceleration per platform coordinate of points of the platform
+    let t111 = mul_sub(t73, t77, t89 * t95);
+    let t112 = mul_sub(t73, t78, t89 * t96);
+    // acceleration per base coordinate of points that move with the base
+    let t113 = t108 + t109;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t114 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
+    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t102);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t116 = mul_add(t32, P::splat(P::lane(t69, 1)), t103);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t117 = mul_add(t41, P::splat(P::lane(t60, 2)), t92);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t118 = t46 * t84;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t119 = t47 * t82;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t120 = t9 * P::splat(P::lane(t100, 1));
+    let t121 = t21 * P::splat(P::lane(t99, 1));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t122 = mul_add(t36, P::splat(P::lane(t69, 2)), t114);
+    let t123 = neg_mul_add(t36, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t124 = mul_add(t47, P::splat(P::lane(t60, 1)), t101);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t125 = t50 * t84;
+    // legs 1, 2, 3: actuator velocity d'
+    let t126 = mul_add(t116, t119, mul_add(t101, t105, t92 * t97));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t127 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t117);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t128 = t9 * P::splat(P::lane(t100, 0));
+    let t129 = t21 * P::splat(P::lane(t107, 0));
+    let t130 = neg_mul_add(t13, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
+    let t131 = mul_add(t44, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t123);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t133 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t124);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t134 = mul_add(t50, P::splat(P::lane(t60, 2)), t115);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t135 = mul_add(t42, P::splat(P::lane(t60, 0)), t116);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t136 = t53 * t84;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t137 = neg_mul_add(t13, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
+    let t138 = mul_add(t44, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
+    let t139 = t130 - mul_add(t12, P::splat(P::lane(t111, 1)), t120);
+    let t140 = mul_sub(t38, P::splat(P::lane(t113, 1)), t121) + t131;
+    let t141 = t9 * P::splat(P::lane(t100, 2));
+    let t142 = t21 * P::splat(P::lane(t113, 2));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t143 = t18 * P::splat(P::lane(t100, 1));
+    let t144 = t43 * P::splat(P::lane(t99, 1));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t145 = mul_add(t53, P::splat(P::lane(t60, 1)), t122);
+    // legs 4, 5, 6: actuator velocity d'
+    let t146 = mul_add(t132, t136, mul_add(t122, t125, t115 * t118));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t147 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t134);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t148 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t135);
+    let t149 = t82 * neg_mul_add(t97, t126, t127);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t150 = t137 - mul_add(t12, P::splat(P::lane(t111, 0)), t128);
+    let t151 = t138 - mul_sub(t38, P::splat(P::lane(t99, 0)), t129);
+    let t152 = t139 + t140;
+    let t153 = neg_mul_add(t13, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
+    let t154 = neg_mul_add(t44, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t155 = t18 * P::splat(P::lane(t100, 0));
+    let t156 = t43 * P::splat(P::lane(t107, 0));
+    let t157 = neg_mul_add(t20, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
+    let t158 = mul_add(t49, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t159 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t145);
+    let t160 = mul_add(t46, P::splat(P::lane(t60, 0)), t132);
+    // constant and copied elements
+    let t161 =
+        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t162 = t82 * neg_mul_add(t105, t126, t133);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t163 = t150 + t151;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t164 = neg_mul_add(t20, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
+    let t165 = mul_add(t49, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
+    // legs 1, 2, 3: actuator acceleration d''
+    let t166 = t153 - mul_add(t12, P::splat(P::lane(t111, 2)), t141);
+    let t167 = mul_add(t38, P::splat(P::lane(t107, 2)), t142) + t154;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t168 = t157 - mul_add(t19, P::splat(P::lane(t111, 1)), t143);
+    let t169 = mul_sub(t48, P::splat(P::lane(t113, 1)), t144) + t158;
+    let t170 = t18 * P::splat(P::lane(t100, 2));
+    let t171 = t43 * P::splat(P::lane(t113, 2));
+    // constant and copied elements
+    let t172 =
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t173 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t160);
+    // second moment of payload and platform-side leg ends
+    let t174 = mul_add(t12 * t12, t172, t19 * t19 * t161);
+    let t175 = mul_add(t9 * t12, t172, t18 * t19 * t161);
+    let t176 = mul_add(t12 * t13, t172, t19 * t20 * t161);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t177 = t84 * neg_mul_add(t118, t146, t147);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t178 = t82 * neg_mul_add(t119, t126, t148);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t179 = t166 + t167;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t180 = t164 - mul_add(t19, P::splat(P::lane(t111, 0)), t155);
+    let t181 = t165 - mul_sub(t48, P::splat(P::lane(t99, 0)), t156);
+    let t182 = t168 + t169;
+    let t183 = neg_mul_add(t20, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
+    let t184 = neg_mul_add(t49, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
+    // constant and copied elements
+    let t185 =
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+    let t186 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t187 = t84 * neg_mul_add(t125, t146, t159);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t188 = mul_add(t119, t179, mul_add(t105, t163, t97 * t152));
+    let t189 = mul_add(t178, t178, mul_add(t162, t162, t149 * t149));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t190 = t180 + t181;
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t191 = t185 * t186;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t192 = t183 - mul_add(t19, P::splat(P::lane(t111, 2)), t170);
+    let t193 = mul_add(t48, P::splat(P::lane(t107, 2)), t171) + t184;
+    // constant and copied elements
+    let t194 =
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t195 = t84 * neg_mul_add(t136, t146, t173);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t196 = neg_mul_add(t59, t189, t188);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t197 = t192 + t193;
+    // second moment of payload and platform-side leg ends
+    let t198 = mul_add(t172, t9 * t9, t161 * (t18 * t18));
+    let t199 = mul_add(t172, t9 * t13, t161 * (t18 * t20));
+    let t200 = P::triple([P::lane(t174, 0), P::lane(t175, 0), P::lane(t176, 0)]);
+    let t201 = P::triple([P::lane(t174, 1), P::lane(t175, 1), P::lane(t176, 1)]);
+    // constant and copied elements
+    let t202 =
+        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+    let t203 =
+        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+    let t204 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+    let t205 =
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t206 = mul_add(t136, t197, mul_add(t125, t190, t118 * t182));
+    let t207 = mul_add(t195, t195, mul_add(t187, t187, t177 * t177));
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t208 = t202 * t203;
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t209 = t172 * t204;
+    // second moment of payload and platform-side leg ends
+    let t210 = P::triple([P::lane(t174, 2), P::lane(t175, 2), P::lane(t176, 2)]);
+    let t211 = t200 + t201 + t210;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t212 = t126 * w(2.0);
+    // constant and copied elements
+    let t213 =
+        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t214 = mul_add(t204, t209, mul_add(t186, t191, t194) + t205);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t215 = neg_mul_add(t64, t207, t206);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t216 = P::splat(base_rotation[0][1]) * t97;
+    let t217 = P::splat(base_rotation[2][1]) * t97;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t218 = t82 * t82;
+    let t219 = t82 * t209;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t220 = P::splat(base_rotation[1][1]) * t97;
+    // second moment of payload and platform-side leg ends
+    let t221 = mul_add(t172, t13 * t13, t161 * (t20 * t20));
+    let t222 = P::lane(t199, 1) + P::lane(t199, 0);
+    // constant and copied elements
+    let t223 =
+        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+    let t224 =
+        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t225 = mul_add(P::splat(base_rotation[0][0]), t105, t216);
+    let t226 = mul_add(P::splat(base_rotation[2][0]), t105, t217);
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t227 = t161 * t223;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t228 = mul_add(P::splat(base_rotation[1][0]), t105, t220);
+    // second moment of payload and platform-side leg ends
+    let t229 = P::triple([P::lane(t211, 1), P::lane(t198, 2), P::lane(t199, 2)]);
+    let t230 = P::triple([c(0.0), P::lane(t198, 1) + P::lane(t198, 0), t222]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t231 = t214 * t218;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t232 = t82 * mul_add(t162, t212, neg_mul_add(t105, t196, t163));
+    let t233 = t82 * mul_add(t149, t212, neg_mul_add(t97, t196, t152));
+    let t234 = t82 * mul_add(t178, t212, neg_mul_add(t119, t196, t179));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t235 = t146 * w(2.0);
+    // second moment of payload and platform-side leg ends
+    let t236 = t229 + t230;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t237 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t238 = mul_add(t223, t227, mul_add(t203, t208, t213) + t224);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t239 = P::splat(platform_rotation[0][1]) * t9;
+    let t240 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t241 = mul_add(P::splat(base_rotation[0][2]), t119, t225);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t242 = P::splat(base_rotation[1][1]) * t118;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t243 = mul_add(P::splat(base_rotation[2][2]), t119, t226);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t244 = neg_mul_add(w(2.0), mul_sub(t214, t218, t219), t231);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t245 = t84 * t84;
+    let t246 = t84 * t227;
+    // legs 1, 2, 3: leg inertia between joint and base speeds
+    let t247 = t82 * t191;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t248 = mul_add(P::splat(base_rotation[1][2]), t119, t228);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t249 = mul_add(P::splat(platform_rotation[2][0]), t12, t237);
+    let t250 = mul_add(P::splat(platform_rotation[0][0]), t12, t239);
+    let t251 = mul_add(P::splat(platform_rotation[1][0]), t12, t240);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t252 = P::splat(base_rotation[0][1]) * t118;
+    let t253 = mul_add(P::splat(base_rotation[1][0]), t125, t242);
+    let t254 = P::splat(base_rotation[2][1]) * t118;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t255 = neg_mul_add(w(2.0), t219, t231);
+    let t256 = t241 * t244;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t257 = t238 * t245;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t258 = t84 * mul_add(t187, t235, neg_mul_add(t125, t215, t190));
+    let t259 = t84 * mul_add(t177, t235, neg_mul_add(t118, t215, t182));
+    let t260 = t84 * mul_add(t195, t235, neg_mul_add(t136, t215, t197));
+    // second moment of payload and platform-side leg ends
+    let t261 = P::triple([P::lane(t211, 2), P::lane(t236, 2), P::lane(t221, 2)]);
+    let t262 = P::triple([c(0.0), c(0.0), P::lane(t221, 1) + P::lane(t221, 0)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t263 = t244 * t248;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t264 = P::splat(platform_rotation[0][1]) * t18;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t265 = mul_add(P::splat(platform_rotation[2][2]), t13, t249);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t266 = mul_add(P::splat(base_rotation[0][0]), t125, t252);
+    let t267 = mul_add(P::splat(base_rotation[2][0]), t125, t254);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t268 = mul_add(P::splat(platform_rotation[0][2]), t13, t250);
+    let t269 = mul_add(P::splat(platform_rotation[1][2]), t13, t251);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t270 = P::splat(platform_rotation[1][1]) * t18;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t271 = mul_add(P::splat(base_rotation[1][2]), t136, t253);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t272 = neg_mul_add(w(2.0), mul_sub(t238, t245, t246), t257);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t273 = t243 * t256;
+    let t274 = mul_add(t243, t243 * t244, t255);
+    // legs 4, 5, 6: leg inertia between joint and base speeds
+    let t275 = t84 * t208;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t276 = mul_add(t150, t219, mul_add(t151, t247, t209 * t232));
+    let t277 = mul_add(t139, t219, mul_add(t140, t247, t209 * t233));
+    let t278 = mul_add(t166, t219, mul_add(t167, t247, t209 * t234));
+    // second moment of payload and platform-side leg ends
+    let t279 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t280 = t243 * t263;
+    // legs 1, 2, 3: leg inertia between joint and base speeds
+    let t281 = t82 * t214;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t282 = mul_add(P::splat(platform_rotation[0][0]), t19, t264);
+    let t283 = P::splat(platform_rotation[2][1]) * t18;
+    let t284 = mul_add(P::splat(platform_rotation[1][0]), t19, t270);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t285 = mul_add(P::splat(base_rotation[0][2]), t136, t266);
+    let t286 = mul_add(P::splat(base_rotation[2][2]), t136, t267);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t287 = neg_mul_add(w(2.0), t246, t257);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t288 = mul_add(t248, t263, t255);
+    // second moment of payload and platform-side leg ends
+    let t289 = t279 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t290 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t291 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t292 = t271 * t272;
+    // mass matrix of the legs
+    let t293 = t268 * t280;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t294 = neg_mul_add(t232, t281, t276);
+    let t295 = neg_mul_add(t233, t281, t277);
+    let t296 = neg_mul_add(t234, t281, t278);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t297 = mul_add(P::splat(platform_rotation[2][0]), t19, t283);
+    let t298 = mul_add(P::splat(platform_rotation[0][2]), t20, t282);
+    // second moment of payload and platform-side leg ends
+    let t299 = P::triple([P::lane(t211, 0), P::lane(t236, 1), P::lane(t261 + t262, 2)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t300 = t248 * t256;
+    // mass matrix of the legs
+    let t301 = mul_sub(t268, t274, t265 * t273);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t302 = mul_add(P::splat(platform_rotation[1][2]), t20, t284);
+    // first moment of payload and platform-side leg ends
+    let t303 = mul_add(t12, t172, t19 * t161);
+    let t304 = mul_add(t9, t172, t18 * t161);
+    let t305 = mul_add(t13, t172, t20 * t161);
+    // second moment of payload and platform-side leg ends
+    let t306 = P::triple([P::lane(t211, 1), P::lane(t236, 2), P::lane(t211, 2)]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t307 = t272 * t285;
+    let t308 = mul_add(t271, t292, t287);
+    let t309 = t286 * t292;
+    // mass matrix of the legs
+    let t310 = mul_sub(t269, t273, t293);
+    let t311 = mul_sub(t265, t280, t269 * t274);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t312 = mul_add(t180, t246, mul_add(t181, t275, t227 * t258));
+    let t313 = mul_add(t168, t246, mul_add(t169, t275, t227 * t259));
+    let t314 = mul_add(t192, t246, mul_add(t193, t275, t227 * t260));
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t315 = mul_add(t241, t256, t255);
+    // legs 4, 5, 6: leg inertia between joint and base speeds
+    let t316 = t84 * t238;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t317 = mul_add(P::splat(platform_rotation[2][2]), t20, t297);
+    // mass matrix of the legs
+    let t318 = mul_sub(t265, t300, t293);
+    // constant and copied elements
+    let t319 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t320 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t321 = t271 * t307;
+    // mass matrix of the legs
+    let t322 = t298 * t309;
+    let t323 = mul_sub(t265, t288, t269 * t280);
+    let t324 = mul_sub(t269, t300, t268 * t288);
+    // second moment of payload and platform-side leg ends
+    let t325 = mul_add(P::splat(t289), w(0.5), t299) - t320;
+    // constant and copied elements
+    let t326 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t327 = t286 * t307;
+    let t328 = mul_add(t286, t272 * t286, t287);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t329 = neg_mul_add(t258, t316, t312);
+    let t330 = neg_mul_add(t259, t316, t313);
+    let t331 = neg_mul_add(t260, t316, t314);
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t332 = mul_sub(t33, t296, t37 * t295);
+    let t333 = mul_sub(t37, t294, t32 * t296);
+    let t334 = mul_sub(t32, t295, t33 * t294);
+    // second moment of payload and platform-side leg ends
+    let t335 = mul_add(t290 * t291, P::splat(parameters.payload_mass), t306) - t326;
+    // mass matrix of the legs
+    let t336 = mul_sub(t317, t321, t322);
+    // second moment of payload and platform-side leg ends
+    let t337 = mul_add(P::splat(parameters.payload_mass), t319 * t319, t325);
+    // mass matrix of the legs
+    let t338 = mul_sub(t308, t317, t302 * t309);
+    let t339 = mul_sub(t302, t321, t298 * t308);
+    // first moment of payload and platform-side leg ends
+    let t340 = P::triple([P::lane(t303, 0), P::lane(t304, 0), P::lane(t305, 0)]);
+    let t341 = P::triple([P::lane(t303, 1), P::lane(t304, 1), P::lane(t305, 1)]);
+    // mass matrix of the legs
+    let t342 = mul_sub(t268, t273, t265 * t315);
+    let t343 = mul_sub(t269, t315, t268 * t300);
+    let t344 = mul_add(t317, t336, mul_add(t265, t318, t269 * t301));
+    let t345 = mul_sub(t298, t328, t317 * t327);
+    // first moments by platform coordinate of the payload's inertia force
+    let t346 = t100 * P::splat(P::lane(t335, 0));
+    // first moment of payload and platform-side leg ends
+    let t347 = P::triple([P::lane(t303, 2), P::lane(t304, 2), P::lane(t305, 2)]);
+    // mass matrix of the legs
+    let t348 = mul_sub(t302, t327, t322);
+    let t349 = mul_add(t317, t338, mul_sub(t265, t323, t269 * t311));
+    let t350 = mul_sub(t309, t317, t302 * t328);
+    let t351 = mul_add(t317, t339, mul_sub(t265, t324, t269 * t310));
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t352 = mul_add(t285, t307, t287);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t353 = neg_mul_add(t45, t330, mul_add(t36, t331, t332));
+    let t354 = neg_mul_add(t39, t331, mul_add(t45, t329, t333));
+    let t355 = neg_mul_add(t36, t329, mul_add(t39, t330, t334));
+    // first moments by platform coordinate of the payload's inertia force
+    let t356 = mul_add(t111, P::splat(P::lane(t337, 0)), t346);
+    // mass matrix of the legs
+    let t357 = mul_add(t302, t345, t344);
+    // first moment of payload and platform-side leg ends
+    let t358 = mul_add(P::splat(parameters.payload_mass), t319, t340 + t341 + t347);
+    // mass matrix of the legs
+    let t359 = neg_mul_add(t302, t350, t349);
+    let t360 = neg_mul_add(t302, t348, t351);
+    // constant and copied elements
+    let t361 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t362 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // mass matrix of the legs
+    let t363 = mul_add(t248, t256, t321);
+    let t364 = mul_add(t243, t256, t327);
+    // first moments by platform coordinate of the payload's inertia force
+    let t365 = mul_add(t112, P::splat(P::lane(t335, 2)), t356);
+    // mass matrix of the legs
+    let t366 = t315 + t352;
+    // constant and copied elements
+    let t367 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    let t368 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t369 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t370 = t100 * P::splat(P::lane(t337, 1));
+    // mass matrix of the legs
+    let t371 = mul_add(t298, t345, mul_sub(t268, t301, t265 * t342));
+    let t372 = mul_sub(t298, t327, t317 * t352);
+    let t373 = mul_add(t298, t348, mul_sub(t268, t310, t265 * t343));
+    let t374 = mul_sub(t302, t352, t298 * t321);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t375 = mul_add(t136, t192, mul_add(t125, t180, t118 * t168));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t376 = mul_add(t64 - t361, t369, t146 * t362);
+    // mass of payload and platform-side leg ends
+    let t377 = t161 + t172;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t378 = P::triple([P::lane(t353, 0), P::lane(t354, 0), P::lane(t355, 0)]);
+    let t379 = P::triple([P::lane(t353, 1), P::lane(t354, 1), P::lane(t355, 1)]);
+    // constant and copied elements
+    let t380 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t381 = mul_sub(t110, P::splat(P::lane(t358, 0)), t365);
+    let t382 = mul_add(t111, P::splat(P::lane(t335, 0)), t370);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t383 = mul_add(t119, t166, mul_add(t105, t150, t97 * t139));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t384 = mul_add(t59 - t367, t380, t126 * t368);
+    // inertia force less weight, without the actuators' own shares
+    let t385 = t294 + t329;
+    let t386 = t295 + t330;
+    let t387 = t296 + t331;
+    // mass matrix of the legs
+    let t388 = neg_mul_add(t317, t372, t371);
+    let t389 = neg_mul_add(t317, t374, t373);
+    let t390 = P::triple([P::lane(t359, 0), -P::lane(t357, 0), P::lane(t360, 0)]);
+    let t391 = P::triple([P::lane(t359, 1), -P::lane(t357, 1), P::lane(t360, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t392 = mul_add(t136, t193, mul_add(t125, t181, t118 * t169));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t393 = P::triple([P::lane(t353, 2), P::lane(t354, 2), P::lane(t355, 2)]);
+    let t394 = t378 + t379 + t393;
+    // mass matrix of the legs
+    let t395 = mul_add(t243, t263, t309);
+    let t396 = P::triple([P::lane(t366, 0), P::lane(t363, 0), P::lane(t364, 0)]);
+    let t397 = P::triple([P::lane(t366, 1), P::lane(t363, 1), P::lane(t364, 1)]);
+    // mass matrix M_p of the platform
+    let t398 = t323 + t338;
+    // first moments by platform coordinate of the payload's inertia force
+    let t399 = mul_add(t112, P::splat(P::lane(t335, 1)), t382);
+    // constant and copied elements
+    let t400 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t401 = mul_add(t317, t321, mul_sub(t265, t300, t269 * t273));
+    let t402 = t288 + t308;
+    let t403 = P::triple([P::lane(t359, 2), -P::lane(t357, 2), P::lane(t360, 2)]);
+    // mass matrix M_p of the platform
+    let t404 = t324 + t339;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t405 = mul_add(t119, t167, mul_add(t105, t151, t97 * t140));
+    // first moments by platform coordinate of the payload's inertia force
+    let t406 = t100 * P::splat(P::lane(t335, 1));
+    // inertia less external wrench that the actuators must balance
+    let t407 = P::splat(parameters.payload_com[1]) * t400;
+    // mass matrix of the legs
+    let t408 = mul_add(t302, t374, mul_sub(t269, t343, t268 * t324));
+    let t409 = t390 + t391 + t403;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t410 = mul_add(t136, t260, mul_add(t125, t258, t118 * t259));
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t411 = mul_add(t275, t392, mul_sub(t246, t375, t376));
+    // mass matrix M_p of the platform
+    let t412 = platform_rotation[2][1] * P::lane(t358, 1);
+    // mass matrix of the legs
+    let t413 = P::triple([P::lane(t366, 2), P::lane(t363, 2), P::lane(t364, 2)]);
+    // mass matrix M_p of the platform
+    let t414 = t343 + t374;
+    let t415 = t301 + t345;
+    let t416 = platform_rotation[0][1] * P::lane(t358, 1);
+    // constant and copied elements
+    let t417 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // mass matrix of the legs
+    let t418 = t318 + t336;
+    let t419 = t396 + t397 + t413;
+    // mass matrix M_p of the platform
+    let t420 = t342 + t372;
+    let t421 = t311 + t350;
+    // inertia force less weight, without the actuators' own shares
+    let t422 = P::triple([P::lane(t385, 0), P::lane(t386, 0), P::lane(t387, 0)]);
+    let t423 = P::triple([P::lane(t385, 1), P::lane(t386, 1), P::lane(t387, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t424 = mul_sub(t110, P::splat(P::lane(t358, 1)), t399);
+    let t425 = mul_add(t111, P::splat(P::lane(t335, 2)), t406);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t426 = P::neg_mul_add(P::lane(t15, 1), P::lane(t381, 2), P::lane(t394, 0));
+    // inertia less external wrench that the actuators must balance
+    let t427 = mul_add(P::splat(parameters.payload_com[0]), t417, t407);
+    // mass matrix of the legs
+    let t428 = neg_mul_add(t302, t327, t401);
+    // mass of payload and platform-side leg ends
+    let t429 = P::lane(t377, 2) + (P::lane(t377, 1) + P::lane(t377, 0));
+    // mass matrix M_p of the platform
+    let t430 = platform_rotation[0][1] * P::lane(t335, 0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t431 = mul_add(t119, t234, mul_add(t105, t232, t97 * t233));
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t432 = mul_add(t247, t405, mul_sub(t219, t383, t384));
+    // mass matrix M_p of the platform
+    let t433 = P::mul_add(platform_rotation[2][0], P::lane(t358, 0), t412);
+    let t434 = platform_rotation[1][1] * P::lane(t358, 1);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t435 = mul_sub(t286, t302, t271 * t317);
+    let t436 = mul_sub(t285, t317, t286 * t298);
+    let t437 = mul_sub(t271, t298, t285 * t302);
+    // mass matrix of the legs
+    let t438 = t310 + t348;
+    let t439 = neg_mul_add(t298, t339, t408);
+    let t440 = P::lane(t389, 1) + P::lane(t389, 0);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t441 = neg_mul_add(t316, t410, t411);
+    // mass matrix M_p of the platform
+    let t442 = P::mul_add(platform_rotation[0][0], P::lane(t358, 0), t416);
+    // inertia force less weight, without the actuators' own shares
+    let t443 = P::triple([P::lane(t385, 2), P::lane(t386, 2), P::lane(t387, 2)]);
+    // constant and copied elements
+    let t444 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // mass matrix of the legs
+    let t445 = P::lane(t395, 1) + P::lane(t395, 0);
+    // mass of payload and platform-side leg ends
+    let t446 = parameters.payload_mass + t429;
+    // mass matrix M_p of the platform
+    let t447 = P::mul_add(platform_rotation[0][0], P::lane(t337, 0), t430);
+    // constant and copied elements
+    let t448 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t449 = mul_add(t112, P::splat(P::lane(t337, 2)), t425);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t450 = P::neg_mul_add(P::lane(t15, 2), P::lane(t381, 0), P::lane(t394, 1));
+    let t451 = P::mul_add(P::lane(t15, 2), P::lane(t381, 1), t426);
+    // mass matrix M_p of the platform
+    let t452 = P::mul_add(platform_rotation[1][0], P::lane(t358, 0), t434);
+    // inertia less external wrench that the actuators must balance
+    let t453 = mul_add(P::splat(parameters.payload_com[2]), t444, t427);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t454 = mul_sub(t243, t269, t248 * t265);
+    let t455 = mul_sub(t241, t265, t243 * t268);
+    let t456 = mul_sub(t248, t268, t241 * t269);
+    // mass matrix of the legs
+    let t457 = t274 + t328;
+    let t458 = P::triple([P::lane(t409, 1), P::lane(t388, 2), P::lane(t389, 2)]);
+    let t459 = P::triple([c(0.0), P::lane(t388, 1) + P::lane(t388, 0), t440]);
+    // mass matrix M_p of the platform
+    let t460 = P::lane(t337, 2) + (P::lane(t337, 0) + P::lane(t337, 1));
+    let t461 = platform_rotation[0][1] * P::lane(t337, 1);
+    let t462 = P::splat(P::lane(t335, 0)) * t448;
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t463 = neg_mul_add(t281, t431, t432);
+    // mass matrix M_p of the platform
+    let t464 = P::mul_add(platform_rotation[2][2], P::lane(t358, 2), t433);
+    // mass matrix of the legs
+    let t465 = t458 + t459;
+    // mass matrix M_p of the platform
+    let t466 = P::mul_add(platform_rotation[0][2], P::lane(t358, 2), t442);
+    // mass matrix of the legs
+    let t467 = P::triple([P::lane(t419, 1), P::lane(t402, 2), P::lane(t395, 2)]);
+    let t468 = P::triple([c(0.0), P::lane(t402, 1) + P::lane(t402, 0), t445]);
+    // constant and copied elements
+    let t469 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    // inertia force less weight, without the actuators' own shares
+    let t470 = neg_mul_add(t110, P::splat(t446), t422 + t423 + t443);
+    // mass matrix of the legs
+    let t471 = t467 + t468;
+    // mass matrix M_p of the platform
+    let t472 = P::mul_add(platform_rotation[0][2], P::lane(t335, 2), t447);
+    // constant and copied elements
+    let t473 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t474 = P::mul_add(platform_rotation[0][0], P::lane(t335, 0), t461);
+    let t475 = mul_add(P::splat(P::lane(t337, 0)), t469, t462);
+    // first moments by platform coordinate of the payload's inertia force
+    let t476 = mul_sub(t110, P::splat(P::lane(t358, 2)), t449);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t477 = P::neg_mul_add(P::lane(t15, 0), P::lane(t381, 1), P::lane(t394, 2));
+    let t478 = P::mul_add(P::lane(t15, 0), P::lane(t381, 2), t450);
+    let t479 = P::mul_sub(P::lane(t14, 1), P::lane(t424, 2), t451);
+    // mass matrix M_p of the platform
+    let t480 = P::mul_add(platform_rotation[1][2], P::lane(t358, 2), t452);
+    // constant and copied elements
+    let t481 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t482 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t483 = t409 + P::triple([t460, c(0.0), c(0.0)]);
+    let t484 = platform_rotation[0][1] * P::lane(t335, 1);
+    let t485 = P::splat(P::lane(t337, 1)) * t448;
+    let t486 = P::splat(P::lane(t335, 0)) * t473;
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t487 = mul_add(t454, t463, t435 * t441);
+    let t488 = mul_add(t455, t463, t436 * t441);
+    let t489 = mul_add(t456, t463, t437 * t441);
+    let t490 = mul_add(t241, t463, t285 * t441);
+    let t491 = mul_add(t248, t463, t271 * t441);
+    let t492 = mul_add(t243, t463, t286 * t441);
+    // mass matrix of the legs
+    let t493 = P::lane(t418, 2) + (P::lane(t418, 1) + P::lane(t418, 0));
+    mass_matrix_p[1][4] = t493;
+    mass_matrix_p[4][1] = t493;
+    // mass matrix M_p of the platform
+    let t494 = t466 - (P::lane(t404, 2) + (P::lane(t404, 1) + P::lane(t404, 0)));
+    mass_matrix_p[1][5] = t494;
+    mass_matrix_p[5][1] = t494;
+    let t495 = P::triple([c(0.0), t446, c(0.0)]);
+    // constant and copied elements
+    let t496 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t497 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    // inertia force less weight, without the actuators' own shares
+    let t498 = mul_add(t111, P::splat(P::lane(t358, 0)), t470);
+    // mass matrix of the legs
+    let t499 = t471 + t495;
+    // mass matrix M_p of the platform
+    let t500 = neg_mul_add(P::splat(t472), t496, t483);
+    let t501 = P::mul_add(platform_rotation[0][2], P::lane(t335, 1), t474);
+    let t502 = P::mul_add(platform_rotation[0][0], P::lane(t335, 2), t484);
+    let t503 = P::triple([c(0.0), t460, c(0.0)]);
+    let t504 = mul_add(P::splat(P::lane(t335, 2)), t497, t475);
+    let t505 = mul_add(P::splat(P::lane(t335, 0)), t469, t485);
+    let t506 = mul_add(P::splat(P::lane(t337, 0)), t496, t486);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t507 = P::mul_add(P::lane(t15, 1), P::lane(t381, 0), t477);
+    let t508 = P::mul_sub(P::lane(t14, 2), P::lane(t424, 0), t478);
+    let t509 = P::neg_mul_add(P::lane(t14, 2), P::lane(t424, 1), t479);
+    // mass matrix M_p of the platform
+    let t510 = -(t464 + (P::lane(t398, 2) + (P::lane(t398, 1) + P::lane(t398, 0))));
+    mass_matrix_p[1][3] = t510;
+    mass_matrix_p[3][1] = t510;
+    // constant and copied elements
+    let t511 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t512 = P::triple([P::lane(t453, 1), P::lane(t453, 2), P::lane(t453, 0)]);
+    // mass matrix of the legs
+    let t513 = P::triple([P::lane(t409, 2), P::lane(t465, 2), P::lane(t439, 2)]);
+    let t514 = P::triple([c(0.0), c(0.0), P::lane(t439, 1) + P::lane(t439, 0)]);
+    let t515 = t465 + t503;
+    // mass matrix M_p of the platform
+    let t516 = P::splat(P::lane(t335, 1)) * t448;
+    let t517 = P::splat(P::lane(t337, 1)) * t473;
+    let t518 = t480 - (P::lane(t421, 2) + (P::lane(t421, 1) + P::lane(t421, 0)));
+    mass_matrix_p[2][3] = t518;
+    mass_matrix_p[3][2] = t518;
+    let t519 = t464 - (P::lane(t420, 2) + (P::lane(t420, 1) + P::lane(t420, 0)));
+    mass_matrix_p[0][4] = t519;
+    mass_matrix_p[4][0] = t519;
+    let t520 = P::triple([t510, t493, t494]);
+    // inertia less external wrench that the actuators must balance
+    let t521 = neg_mul_add(t511, t512, mul_add(t453, t482, t481));
+    // mass of payload and platform-side leg ends
+    let t522 = P::triple([t446, c(0.0), c(0.0)]);
+    // inertia less external wrench that the actuators must balance
+    let t523 = t520 * P::splat(platform_acceleration[1]);
+    // mass matrix of the legs
+    let t524 = P::triple([P::lane(t419, 2), P::lane(t471, 2), P::lane(t457, 2)]);
+    let t525 = P::triple([c(0.0), c(0.0), P::lane(t457, 1) + P::lane(t457, 0)]);
+    // mass matrix M_p of the platform
+    let t526 = t419 + t522;
+    // constant and copied elements
+    let t527 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t528 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // inertia force less weight, without the actuators' own shares
+    let t529 = mul_add(t100, P::splat(P::lane(t358, 1)), t498);
+    // inertia less external wrench that the actuators must balance
+    let t530 = t499 * P::splat(platform_acceleration[1]);
+    // mass matrix of the legs
+    let t531 = -(P::lane(t428, 2) + (P::lane(t428, 1) + P::lane(t428, 0)));
+    mass_matrix_p[0][3] = t531;
+    mass_matrix_p[3][0] = t531;
+    // mass matrix M_p of the platform
+    let t532 = -(t466 + (P::lane(t415, 2) + (P::lane(t415, 1) + P::lane(t415, 0))));
+    mass_matrix_p[2][4] = t532;
+    mass_matrix_p[4][2] = t532;
+    let t533 = -(t480 + (P::lane(t414, 2) + (P::lane(t414, 1) + P::lane(t414, 0))));
+    mass_matrix_p[0][5] = t533;
+    mass_matrix_p[5][0] = t533;
+    // mass matrix of the legs
+    let t534 = -(P::lane(t438, 2) + (P::lane(t438, 1) + P::lane(t438, 0)));
+    mass_matrix_p[2][5] = t534;
+    mass_matrix_p[5][2] = t534;
+    // mass matrix M_p of the platform
+    let t535 = neg_mul_add(t473, P::splat(t501), t500);
+    let t536 = P::mul_add(platform_rotation[0][2], P::lane(t337, 2), t502);
+    let t537 = mul_add(P::splat(P::lane(t335, 1)), t497, t505);
+    let t538 = mul_add(P::splat(P::lane(t335, 2)), t469, t516);
+    let t539 = P::triple([c(0.0), c(0.0), t460]);
+    let t540 = mul_add(P::splat(P::lane(t335, 2)), t527, t506);
+    let t541 = mul_add(P::splat(P::lane(t335, 0)), t496, t517);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t542 = P::mul_sub(P::lane(t14, 0), P::lane(t424, 1), t507);
+    let t543 = P::neg_mul_add(P::lane(t14, 0), P::lane(t424, 2), t508);
+    let t544 = P::mul_add(P::lane(t17, 1), P::lane(t476, 2), t509);
+    // mass matrix of the legs
+    let t545 = P::triple([t531, t519, t533]);
+    // mass matrix M_p of the platform
+    let t546 = P::triple([t518, t532, t534]);
+    // mass matrix of the legs
+    let t547 = t513 + t514 + t539;
+    // mass matrix M_p of the platform
+    let t548 = P::splat(P::lane(t335, 1)) * t473;
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t549 = P::triple([P::lane(t487, 0), P::lane(t488, 0), P::lane(t489, 0)]);
+    let t550 = P::triple([P::lane(t487, 1), P::lane(t488, 1), P::lane(t489, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t551 = neg_mul_add(t546, P::splat(platform_acceleration[2]), t521);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t552 = P::triple([P::lane(t490, 0), P::lane(t491, 0), P::lane(t492, 0)]);
+    let t553 = P::triple([P::lane(t490, 1), P::lane(t491, 1), P::lane(t492, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t554 = mul_add(t526, P::splat(platform_acceleration[0]), t530);
+    // mass matrix of the legs
+    let t555 = t524 + t525 + P::triple([c(0.0), c(0.0), t446]);
+    // constant and copied elements
+    let t556 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // inertia force less weight, without the actuators' own shares
+    let t557 = mul_add(t112, P::splat(P::lane(t358, 2)), t529);
+    // mass matrix M_p of the platform
+    let t558 = neg_mul_add(t527, P::splat(t536), t535);
+    let t559 = neg_mul_add(t537, t556, neg_mul_add(t504, t528, t515));
+    let t560 = mul_add(P::splat(P::lane(t337, 2)), t497, t538);
+    let t561 = neg_mul_add(P::splat(platform_rotation[2][0]), t540, t547);
+    let t562 = mul_add(P::splat(P::lane(t335, 1)), t527, t541);
+    let t563 = mul_add(P::splat(P::lane(t335, 2)), t496, t548);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t564 = P::triple([P::lane(t487, 2), P::lane(t488, 2), P::lane(t489, 2)]);
+    let t565 = P::neg_mul_add(P::lane(t14, 1), P::lane(t424, 0), t542);
+    let t566 = P::mul_add(P::lane(t17, 2), P::lane(t476, 0), t543);
+    let t567 = P::neg_mul_add(P::lane(t17, 2), P::lane(t476, 1), t544);
+    let t568 = P::triple([P::lane(t490, 2), P::lane(t491, 2), P::lane(t492, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t569 = t551 - mul_add(t545, P::splat(platform_acceleration[0]), t523);
+    let t570 = mul_add(P::splat(platform_acceleration[2]), t555, t554);
+    // constant and copied elements
+    let t571 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t572 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t573 = neg_mul_add(t560, t571, t559);
+    let t574 = neg_mul_add(P::splat(platform_rotation[2][1]), t562, t561);
+    let t575 = mul_add(P::splat(P::lane(t337, 2)), t527, t563);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t576 = P::mul_add(P::lane(t17, 0), P::lane(t476, 1), t565);
+    let t577 = P::neg_mul_add(P::lane(t17, 0), P::lane(t476, 2), t566);
+    let t578 = mul_add(P::splat(t567), t572, t549 + t550 + t564);
+    // inertia less external wrench that the actuators must balance
+    let t579 = neg_mul_add(t558, P::splat(platform_acceleration[3]), t569);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t580 = neg_mul_add(t572, P::splat(P::lane(t557, 0)), t552 + t553 + t568);
+    // mass matrix of the legs
+    let t581 = P::triple([t531, t510, t518]);
+    // constant and copied elements
+    let t582 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // inertia less external wrench that the actuators must balance
+    let t583 = mul_add(P::splat(platform_acceleration[3]), t581, t570);
+    // mass matrix M_p of the platform
+    let t584 = neg_mul_add(P::splat(platform_rotation[2][2]), t575, t574);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t585 = P::neg_mul_add(P::lane(t17, 1), P::lane(t476, 0), t576);
+    // inertia less external wrench that the actuators must balance
+    let t586 = neg_mul_add(t573, P::splat(platform_acceleration[4]), t579);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t587 = mul_sub(P::splat(P::lane(t557, 1)), t582, t580);
+    // mass matrix M_p of the platform
+    let t588 = P::triple([t519, t493, t532]);
+    let t589 = P::triple([t533, t494, t534]);
+    // constant and copied elements
+    let t590 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    // inertia less external wrench that the actuators must balance
+    let t591 = mul_sub(t589, P::splat(platform_acceleration[5]), t590);
+    // constant and copied elements
+    let t592 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t593 = mul_add(P::splat(t585), t592, mul_add(P::splat(t577), t582, t578));
+    let t594 = mul_add(P::splat(P::lane(t557, 2)), t592, t587);
+    // inertia less external wrench that the actuators must balance
+    let t595 = mul_add(P::splat(platform_acceleration[4]), t588, t583) + t591;
+    let t596 = neg_mul_add(t584, P::splat(platform_acceleration[5]), t586) + t593;
+    let t597 = t594 + t595;
+    let t598 = -P::lane(t596, 0);
+    let t599 = -P::lane(t596, 1);
+    let t600 = -P::lane(t596, 2);
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_general(
+        &[
+            [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t285, 0), P::lane(t285, 1), P::lane(t285, 2)],
+            [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t271, 0), P::lane(t271, 1), P::lane(t271, 2)],
+            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t286, 0), P::lane(t286, 1), P::lane(t286, 2)],
+            [P::lane(t454, 0), P::lane(t454, 1), P::lane(t454, 2), P::lane(t435, 0), P::lane(t435, 1), P::lane(t435, 2)],
+            [P::lane(t455, 0), P::lane(t455, 1), P::lane(t455, 2), P::lane(t436, 0), P::lane(t436, 1), P::lane(t436, 2)],
+            [P::lane(t456, 0), P::lane(t456, 1), P::lane(t456, 2), P::lane(t437, 0), P::lane(t437, 1), P::lane(t437, 2)],
+        ],
+        &[P::lane(t597, 0), P::lane(t597, 1), P::lane(t597, 2), t598, t599, t600],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t59, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t59, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t59, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t64, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t64, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t64, 2);
+    // leg 1: actuator velocity d'
+    actuator_velocity[0] = P::lane(t126, 0);
+    // leg 2: actuator velocity d'
+    actuator_velocity[1] = P::lane(t126, 1);
+    // leg 3: actuator velocity d'
+    actuator_velocity[2] = P::lane(t126, 2);
+    // leg 4: actuator velocity d'
+    actuator_velocity[3] = P::lane(t146, 0);
+    // leg 5: actuator velocity d'
+    actuator_velocity[4] = P::lane(t146, 1);
+    // leg 6: actuator velocity d'
+    actuator_velocity[5] = P::lane(t146, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t241, 0);
+    jacobian_dp[0][1] = P::lane(t248, 0);
+    jacobian_dp[0][2] = P::lane(t243, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t454, 0);
+    jacobian_dp[0][4] = P::lane(t455, 0);
+    jacobian_dp[0][5] = P::lane(t456, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t241, 1);
+    jacobian_dp[1][1] = P::lane(t248, 1);
+    jacobian_dp[1][2] = P::lane(t243, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t454, 1);
+    jacobian_dp[1][4] = P::lane(t455, 1);
+    jacobian_dp[1][5] = P::lane(t456, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t241, 2);
+    jacobian_dp[2][1] = P::lane(t248, 2);
+    jacobian_dp[2][2] = P::lane(t243, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t454, 2);
+    jacobian_dp[2][4] = P::lane(t455, 2);
+    jacobian_dp[2][5] = P::lane(t456, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t285, 0);
+    jacobian_dp[3][1] = P::lane(t271, 0);
+    jacobian_dp[3][2] = P::lane(t286, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t435, 0);
+    jacobian_dp[3][4] = P::lane(t436, 0);
+    jacobian_dp[3][5] = P::lane(t437, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t285, 1);
+    jacobian_dp[4][1] = P::lane(t271, 1);
+    jacobian_dp[4][2] = P::lane(t286, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t435, 1);
+    jacobian_dp[4][4] = P::lane(t436, 1);
+    jacobian_dp[4][5] = P::lane(t437, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t285, 2);
+    jacobian_dp[5][1] = P::lane(t271, 2);
+    jacobian_dp[5][2] = P::lane(t286, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t435, 2);
+    jacobian_dp[5][4] = P::lane(t436, 2);
+    jacobian_dp[5][5] = P::lane(t437, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t526, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t419, 1);
+    mass_matrix_p[0][2] = P::lane(t419, 2);
+    mass_matrix_p[1][0] = P::lane(t419, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t499, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t471, 2);
+    mass_matrix_p[2][0] = P::lane(t419, 2);
+    mass_matrix_p[2][1] = P::lane(t471, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t555, 2);
+    mass_matrix_p[3][3] = P::lane(t558, 0);
+    mass_matrix_p[3][4] = P::lane(t558, 1);
+    mass_matrix_p[3][5] = P::lane(t558, 2);
+    mass_matrix_p[4][3] = P::lane(t558, 1);
+    mass_matrix_p[4][4] = P::lane(t573, 1);
+    mass_matrix_p[4][5] = P::lane(t573, 2);
+    mass_matrix_p[5][3] = P::lane(t558, 2);
+    mass_matrix_p[5][4] = P::lane(t573, 2);
+    mass_matrix_p[5][5] = P::lane(t584, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t594, 0);
+    total_bias[1] = P::lane(t594, 1);
+    total_bias[2] = P::lane(t594, 2);
+    total_bias[3] = -P::lane(t593, 0);
+    total_bias[4] = -P::lane(t593, 1);
+    total_bias[5] = -P::lane(t593, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 =
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 =
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+    let t13 =
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 =
+        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+    let t19 =
+        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+    let t20 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+    let t21 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    // constant and copied elements
+    let t36 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
+    let t39 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // constant and copied elements
+    let t41 =
+        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
+    // constant and copied elements
+    let t44 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t45 = mul_add(t21, P::splat(P::lane(t17, 2)), t40);
+    // legs 1, 2, 3: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 2)) + t37 - t41;
+    // legs 4, 5, 6: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 1)) + t38 - t44;
+    // constant and copied elements
+    let t48 =
+        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    let t49 =
+        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t53 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // legs 4, 5, 6: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the platform
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t57 = mul_add(t5, P::splat(base_velocity[5]), t53);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 2, 3: actuator length d
+    let t59 = sqrt(mul_add(t46, t46, mul_add(t42, t42, t43 * t43)));
+    // velocity of the platform origin relative to the base
+    let t60 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // angular velocity of the platform
+    let t61 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    // platform origin seen from the base
+    let t62 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // rotation of the platform seen from the base
+    let t63 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: actuator length d
+    let t64 = sqrt(mul_add(t54, t54, mul_add(t50, t50, t47 * t47)));
+    // velocity of the platform origin relative to the base
+    let t65 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t60);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t67 = P::triple([P::lane(t57, 1), P::lane(t57, 2), P::lane(t57, 0)]);
+    let t68 = P::triple([P::lane(t57, 2), P::lane(t57, 0), P::lane(t57, 1)]);
+    // angular velocity of the platform relative to the base
+    let t69 = t57 - t61;
+    // rotation of the platform seen from the base
+    let t70 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular velocity of the platform
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    // angular acceleration of the base
+    let t72 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // velocity of the platform origin relative to the base
+    let t73 = mul_add(t62, t68, neg_mul_add(t58, t67, t65));
+    // acceleration per platform coordinate of points of the platform
+    let t74 = mul_sub(t61, t63, t14 * t71);
+    let t75 = mul_sub(t61, t70, t15 * t71);
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // angular acceleration of the base
+    let t77 = mul_add(t5, P::splat(base_acceleration[5]), t72);
+    // acceleration per platform coordinate of points of the platform
+    let t78 = mul_sub(t61, t76, t17 * t71);
+    // angular velocity of the base
+    let t79 = P::triple([P::lane(t57, 0), P::lane(t57, 2), P::lane(t57, 0)]);
+    let t80 = P::triple([P::lane(t57, 1), P::lane(t57, 1), P::lane(t57, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t81 = neg_mul_add(t31, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // angular velocity of the platform
+    let t83 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t84 = P::triple([P::lane(t74, 2), P::lane(t74, 0), P::lane(t74, 1)]);
+    // acceleration of the base origin less gravity
+    let t85 = base_acceleration[0] - parameters.gravity[0];
+    let t86 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t87 = P::triple([P::lane(t57, 2), P::lane(t57, 2), P::lane(t57, 0)]);
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t88 = w(1.0) / t64;
+    // acceleration per base coordinate of points that move with the base
+    let t89 = t79 * t80;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t90 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    // acceleration per platform coordinate of points of the platform
+    let t91 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t81);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t57, 1), P::lane(t57, 0), P::lane(t57, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t94 = mul_sub(t71, t74, t83 * t84);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t95 = t43 * t82;
+    // acceleration of the base origin less gravity
+    let t96 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t97 = mul_add(t93, t93, t87 * t87);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t98 = mul_add(t33, P::splat(P::lane(t69, 2)), t90);
+    let t99 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    // angular acceleration of the base
+    let t100 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t101 = mul_sub(t71, t75, t83 * t91);
+    let t102 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t103 = t42 * t82;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t104 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
+    // acceleration of the base origin less gravity
+    let t105 = mul_add(t5, P::splat(t96), mul_add(t2, P::splat(t85), t86));
+    // acceleration per base coordinate of points that move with the base
+    let t106 = mul_sub(t79, t80, t100);
+    // angular acceleration of the base
+    let t107 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t108 = P::triple([P::lane(t89, 2), P::lane(t89, 0), P::lane(t89, 1)]);
+    let t109 = t107 + t108;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t110 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t111 = mul_add(t31, P::splat(P::lane(t69, 1)), t99);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t112 = mul_add(t42, P::splat(P::lane(t57, 2)), t92);
+    // acceleration per platform coordinate of points of the platform
+    let t113 = mul_sub(t71, t78, t83 * t102);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t114 = t46 * t82;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t104);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t116 = t9 * P::splat(P::lane(t94, 1));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t117 = t47 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t118 = t20 * P::splat(P::lane(t97, 1));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t119 = mul_add(t46, P::splat(P::lane(t57, 1)), t98);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t120 = mul_add(t38, P::splat(P::lane(t69, 2)), t110);
+    let t121 = neg_mul_add(t38, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    // legs 1, 2, 3: actuator velocity d'
+    let t122 = mul_add(t111, t114, mul_add(t98, t103, t92 * t95));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t123 = neg_mul_add(t46, P::splat(P::lane(t57, 0)), t112);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t124 = t9 * P::splat(P::lane(t94, 0));
+    let t125 = mul_add(t12, P::splat(P::lane(t101, 1)), t116);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t126 = t50 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t127 = t20 * P::splat(P::lane(t106, 0));
+    let t128 = mul_add(t41, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t129 = neg_mul_add(t43, P::splat(P::lane(t57, 2)), t119);
+    let t130 = mul_add(t43, P::splat(P::lane(t57, 0)), t111);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t131 = mul_add(t12, P::splat(P::lane(t101, 0)), t124);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t121);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t133 = mul_add(t50, P::splat(P::lane(t57, 2)), t115);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t134 = mul_add(t41, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
+    let t135 = mul_add(t13, P::splat(P::lane(t113, 1)), t125);
+    let t136 = t9 * P::splat(P::lane(t94, 2));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t137 = t54 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t138 = mul_sub(t36, P::splat(P::lane(t109, 1)), t118) + t128;
+    let t139 = t20 * P::splat(P::lane(t109, 2));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t140 = t18 * P::splat(P::lane(t94, 1));
+    let t141 = t44 * P::splat(P::lane(t97, 1));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t142 = mul_add(t54, P::splat(P::lane(t57, 1)), t120);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t143 = neg_mul_add(t42, P::splat(P::lane(t57, 1)), t130);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t144 = mul_add(t13, P::splat(P::lane(t113, 0)), t131);
+    let t145 = mul_add(t12, P::splat(P::lane(t101, 2)), t136);
+    // legs 4, 5, 6: actuator velocity d'
+    let t146 = mul_add(t132, t137, mul_add(t120, t126, t115 * t117));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t147 = t82 * neg_mul_add(t95, t122, t123);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t148 = neg_mul_add(t54, P::splat(P::lane(t57, 0)), t133);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t149 = t134 - mul_sub(t36, P::splat(P::lane(t97, 0)), t127);
+    let t150 = t135 - t138;
+    let t151 = neg_mul_add(t41, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t152 = t18 * P::splat(P::lane(t94, 0));
+    let t153 = mul_add(t19, P::splat(P::lane(t101, 1)), t140);
+    // second moment of payload and platform-side leg ends
+    let t154 = t19 * t19;
+    let t155 = t18 * t19;
+    let t156 = t19 * t21;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t157 = t44 * P::splat(P::lane(t106, 0));
+    let t158 = mul_add(t49, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
+    // constant and copied elements
+    let t159 =
+        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t160 = t82 * neg_mul_add(t103, t122, t129);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t161 = neg_mul_add(t47, P::splat(P::lane(t57, 2)), t142);
+    let t162 = mul_add(t47, P::splat(P::lane(t57, 0)), t132);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t163 = t144 - t149;
+    let t164 = mul_add(t13, P::splat(P::lane(t113, 2)), t145);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t165 = mul_add(t19, P::splat(P::lane(t101, 0)), t152);
+    // second moment of payload and platform-side leg ends
+    let t166 = t12 * t12;
+    let t167 = t9 * t12;
+    let t168 = t12 * t13;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t169 = mul_add(t36, P::splat(P::lane(t106, 2)), t139) + t151;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t170 = mul_add(t49, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
+    let t171 = mul_add(t21, P::splat(P::lane(t113, 1)), t153);
+    let t172 = t18 * P::splat(P::lane(t94, 2));
+    let t173 = mul_sub(t48, P::splat(P::lane(t109, 1)), t141) + t158;
+    let t174 = t44 * P::splat(P::lane(t109, 2));
+    // constant and copied elements
+    let t175 =
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
+    // second moment of payload and platform-side leg ends
+    let t176 = mul_add(t166, t175, t154 * t159);
+    let t177 = mul_add(t167, t175, t155 * t159);
+    let t178 = mul_add(t168, t175, t156 * t159);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t179 = t82 * neg_mul_add(t114, t122, t143);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t180 = neg_mul_add(t50, P::splat(P::lane(t57, 1)), t162);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t181 = t164 - t169;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t182 = mul_add(t21, P::splat(P::lane(t113, 0)), t165);
+    let t183 = mul_add(t19, P::splat(P::lane(t101, 2)), t172);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t184 = t88 * neg_mul_add(t117, t146, t148);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t185 = t170 - mul_sub(t48, P::splat(P::lane(t97, 0)), t157);
+    let t186 = t171 - t173;
+    let t187 = neg_mul_add(t49, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    // second moment of payload and platform-side leg ends
+    let t188 = t18 * t18;
+    let t189 = t18 * t21;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t190 = mul_add(t114, t181, mul_add(t103, t163, t95 * t150));
+    let t191 = mul_add(t179, t179, mul_add(t160, t160, t147 * t147));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t192 = t88 * neg_mul_add(t126, t146, t161);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t193 = t182 - t185;
+    let t194 = mul_add(t21, P::splat(P::lane(t113, 2)), t183);
+    // second moment of payload and platform-side leg ends
+    let t195 = t9 * t9;
+    let t196 = t9 * t13;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t197 = mul_add(t48, P::splat(P::lane(t106, 2)), t174) + t187;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t198 = mul_add(t59, t191, t190);
+    // second moment of payload and platform-side leg ends
+    let t199 = mul_add(t175, t195, t159 * t188);
+    let t200 = mul_add(t175, t196, t159 * t189);
+    let t201 = P::triple([P::lane(t176, 0), P::lane(t177, 0), P::lane(t178, 0)]);
+    let t202 = P::triple([P::lane(t176, 1), P::lane(t177, 1), P::lane(t178, 1)]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t203 = t88 * neg_mul_add(t137, t146, t180);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t204 = t194 - t197;
+    // constant and copied elements
+    let t205 =
+        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+    let t206 =
+        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t207 = t205 * t206;
+    // second moment of payload and platform-side leg ends
+    let t208 = t21 * t21;
+    let t209 = P::triple([P::lane(t176, 2), P::lane(t177, 2), P::lane(t178, 2)]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t210 = mul_add(t137, t204, mul_add(t126, t193, t117 * t186));
+    let t211 = mul_add(t203, t203, mul_add(t192, t192, t184 * t184));
+    // constant and copied elements
+    let t212 =
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+    let t213 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+    let t214 =
+        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+    // second moment of payload and platform-side leg ends
+    let t215 = t201 + t202 + t209;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t216 = t122 * w(2.0);
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t217 = t212 * t213;
+    // second moment of payload and platform-side leg ends
+    let t218 = t13 * t13;
+    // constant and copied elements
+    let t219 =
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t220 = mul_add(t64, t211, t210);
+    // constant and copied elements
+    let t221 =
+        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+    let t222 =
+        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
+    // second moment of payload and platform-side leg ends
+    let t223 = mul_add(t175, t218, t159 * t208);
+    let t224 = P::lane(t200, 1) + P::lane(t200, 0);
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t225 = t159 * t221;
+    // constant and copied elements
+    let t226 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t227 = t175 * t226;
+    // constant and copied elements
+    let t228 =
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+    // second moment of payload and platform-side leg ends
+    let t229 = P::triple([P::lane(t215, 1), P::lane(t199, 2), P::lane(t200, 2)]);
+    let t230 = P::triple([c(0.0), P::lane(t199, 1) + P::lane(t199, 0), t224]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t231 = t82 * neg_mul_add(t160, t216, neg_mul_add(t103, t198, t163));
+    let t232 = t82 * neg_mul_add(t147, t216, neg_mul_add(t95, t198, t150));
+    let t233 = t82 * neg_mul_add(t179, t216, neg_mul_add(t114, t198, t181));
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t234 = mul_add(t221, t225, mul_add(t206, t207, t214) + t222);
+    // second moment of payload and platform-side leg ends
+    let t235 = t229 + t230;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t236 = t146 * w(2.0);
+    let t237 = t88 * t225;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t238 = t88 * t88;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t239 = t82 * t217;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t240 = mul_add(t226, t227, mul_add(t213, t217, t219) + t228);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t241 = t82 * t227;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t242 = t82 * t82;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t243 = mul_add(t114, t164, mul_add(t103, t144, t95 * t135));
+    // constant and copied elements
+    let t244 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t245 = t234 * t238;
+    // first moment of payload and platform-side leg ends
+    let t246 = mul_add(t12, t175, t19 * t159);
+    let t247 = mul_add(t9, t175, t18 * t159);
+    let t248 = mul_add(t13, t175, t21 * t159);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t249 = t239 * mul_add(t114, t169, mul_add(t103, t149, t95 * t138));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t250 = t59 - t244;
+    // second moment of payload and platform-side leg ends
+    let t251 = P::triple([P::lane(t215, 2), P::lane(t235, 2), P::lane(t223, 2)]);
+    let t252 = P::triple([c(0.0), c(0.0), P::lane(t223, 1) + P::lane(t223, 0)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t253 = t88 * neg_mul_add(t184, t236, neg_mul_add(t117, t220, t186));
+    // constant and copied elements
+    let t254 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t255 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t256 = t240 * t242;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t257 = mul_add(w(2.0), neg_mul_add(t234, t238, t237), t245);
+    // legs 4, 5, 6: leg inertia alike in all directions at the platform joint
+    let t258 = neg_mul_add(w(2.0), t237, t245);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t259 = mul_add(t114, t233, mul_add(t103, t231, t95 * t232));
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t260 = neg_mul_add(t144, t241, mul_sub(t149, t239, t227 * t231));
+    let t261 = neg_mul_add(t135, t241, mul_sub(t138, t239, t227 * t232));
+    let t262 = neg_mul_add(t164, t241, mul_sub(t169, t239, t227 * t233));
+    // second moment of payload and platform-side leg ends
+    let t263 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t264 = t82 * t240;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t265 = t88 * neg_mul_add(t192, t236, neg_mul_add(t126, t220, t193));
+    let t266 = t88 * t207;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t267 = mul_add(w(2.0), neg_mul_add(t240, t242, t241), t256);
+    // legs 1, 2, 3: leg inertia alike in all directions at the platform joint
+    let t268 = neg_mul_add(w(2.0), t241, t256);
+    // constant and copied elements
+    let t269 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    // mass matrix in base coordinates
+    let t270 = t117 * t257;
+    let t271 = t137 * t257;
+    // second moment of payload and platform-side leg ends
+    let t272 = t263 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t273 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t274 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t275 = neg_mul_add(t259, t264, mul_sub(t241, t243, t249));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t276 = mul_add(t137, t194, mul_add(t126, t182, t117 * t171));
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t277 = mul_add(t231, t264, t260);
+    let t278 = mul_add(t232, t264, t261);
+    let t279 = mul_add(t233, t264, t262);
+    // constant and copied elements
+    let t280 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    // mass of payload and platform-side leg ends
+    let t281 = t159 + t175;
+    // first moment of payload and platform-side leg ends
+    let t282 = P::triple([P::lane(t246, 0), P::lane(t247, 0), P::lane(t248, 0)]);
+    let t283 = P::triple([P::lane(t246, 1), P::lane(t247, 1), P::lane(t248, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t284 = mul_add(t137, t197, mul_add(t126, t185, t117 * t173)) * t266;
+    let t285 = t88 * neg_mul_add(t203, t236, neg_mul_add(t137, t220, t204));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t286 = t64 - t280;
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t287 = mul_sub(t38, t137, t45 * t117);
+    let t288 = mul_sub(t45, t126, t39 * t137);
+    let t289 = mul_sub(t39, t117, t38 * t126);
+    // second moment of payload and platform-side leg ends
+    let t290 = P::triple([P::lane(t215, 0), P::lane(t235, 1), P::lane(t251 + t252, 2)]);
+    // mass matrix in base coordinates
+    let t291 = t95 * t267;
+    let t292 = t114 * t267;
+    let t293 = mul_add(t9, t268, t18 * t258);
+    // second moment of payload and platform-side leg ends
+    let t294 = P::triple([P::lane(t215, 1), P::lane(t235, 2), P::lane(t215, 2)]);
+    // constant and copied elements
+    let t295 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t296 = mul_sub(t33, t114, t37 * t95);
+    let t297 = mul_sub(t37, t103, t31 * t114);
+    let t298 = mul_sub(t31, t95, t33 * t103);
+    // constant and copied elements
+    let t299 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // first moment of payload and platform-side leg ends
+    let t300 = P::triple([P::lane(t246, 2), P::lane(t247, 2), P::lane(t248, 2)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t301 = mul_add(t137, t285, mul_add(t126, t265, t117 * t253));
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t302 = neg_mul_add(t122, t269, neg_mul_add(t250, t254, t255)) - t275;
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t303 = t33 * t279;
+    let t304 = t37 * t277;
+    let t305 = t31 * t278;
+    // mass matrix in base coordinates
+    let t306 = t258 + t268;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t307 = t88 * t234;
+    // mass matrix in base coordinates
+    let t308 = mul_add(t103, t103 * t267, t126 * (t126 * t257));
+    let t309 = t257 * t287;
+    let t310 = mul_add(t12, t268, t19 * t258);
+    let t311 = t257 * t288;
+    let t312 = t257 * t289;
+    let t313 = mul_add(t95, t291, t117 * t270);
+    let t314 = mul_add(t114, t292, t137 * t271);
+    // constant and copied elements
+    let t315 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t316 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // mass matrix in base coordinates
+    let t317 = mul_add(t103, t291, t126 * t270);
+    let t318 = mul_add(t103, t292, t126 * t271);
+    let t319 = mul_add(t95, t292, t117 * t271);
+    // second moment of payload and platform-side leg ends
+    let t320 = mul_add(P::splat(t272), w(0.5), t290) - t316;
+    // constant and copied elements
+    let t321 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    let t322 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // first moment of payload and platform-side leg ends
+    let t323 = mul_add(P::splat(parameters.payload_mass), t315, t282 + t283 + t300);
+    // second moment of payload and platform-side leg ends
+    let t324 = mul_add(t273 * t274, P::splat(parameters.payload_mass), t294) - t321;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t325 = neg_mul_add(t301, t307, mul_sub(t237, t276, t284));
+    // mass matrix in base coordinates
+    let t326 = t267 * t296;
+    let t327 = t267 * t297;
+    let t328 = t267 * t298;
+    let t329 = mul_add(t167, t268, t155 * t258);
+    let t330 = mul_add(t13, t268, t21 * t258);
+    // second moment of payload and platform-side leg ends
+    let t331 = mul_add(P::splat(parameters.payload_mass), t315 * t315, t320);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t332 = neg_mul_add(t182, t237, mul_sub(t185, t266, t225 * t265));
+    let t333 = neg_mul_add(t171, t237, mul_sub(t173, t266, t225 * t253));
+    let t334 = neg_mul_add(t194, t237, mul_sub(t197, t266, t225 * t285));
+    // wrench left at the trial acceleration
+    let t335 = mul_add(t37, t278, mul_sub(t296, t302, t303));
+    let t336 = mul_add(t31, t279, mul_sub(t297, t302, t304));
+    let t337 = mul_add(t33, t277, mul_sub(t298, t302, t305));
+    // mass of payload and platform-side leg ends
+    let t338 = P::lane(t281, 2) + (P::lane(t281, 1) + P::lane(t281, 0));
+    // mass matrix in base coordinates
+    let t339 = mul_add(t95, t326, t117 * t309);
+    let t340 = mul_add(t95, t327, t117 * t311);
+    let t341 = mul_add(t95, t328, t117 * t312);
+    let t342 = mul_add(t166, t268, t154 * t258);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t343 = neg_mul_add(t146, t322, neg_mul_add(t286, t295, t299)) - t325;
+    // mass matrix in base coordinates
+    let t344 = mul_add(t195, t268, t188 * t258);
+    // first moments by platform coordinate of the payload's inertia force
+    let t345 = t94 * P::splat(P::lane(t324, 0));
+    // inertia less external wrench that the actuators must balance
+    let t346 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t347 = P::triple([P::lane(t308, 0), P::lane(t313, 0), P::lane(t314, 0)]);
+    let t348 = P::triple([P::lane(t308, 1), P::lane(t313, 1), P::lane(t314, 1)]);
+    let t349 = P::lane(t293, 2) + (P::lane(t293, 1) + P::lane(t293, 0));
+    // mass of payload and platform-side leg ends
+    let t350 = parameters.payload_mass + t338;
+    // mass matrix in base coordinates
+    let t351 = mul_add(t103, t326, t126 * t309);
+    let t352 = mul_add(t103, t327, t126 * t311);
+    let t353 = mul_add(t103, t328, t126 * t312);
+    let t354 = P::triple([P::lane(t319, 0), P::lane(t318, 0), P::lane(t317, 0)]);
+    let t355 = P::triple([P::lane(t319, 1), P::lane(t318, 1), P::lane(t317, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t356 = mul_add(t265, t307, t332);
+    let t357 = mul_add(t253, t307, t333);
+    let t358 = mul_add(t285, t307, t334);
+    // mass matrix in base coordinates
+    let t359 = mul_add(t168, t268, t156 * t258);
+    // first moments by platform coordinate of the payload's inertia force
+    let t360 = mul_add(t101, P::splat(P::lane(t331, 0)), t345);
+    // inertia less external wrench that the actuators must balance
+    let t361 = mul_add(t2, P::splat(external_wrench[0]), t346);
+    // mass matrix in base coordinates
+    let t362 = P::triple([P::lane(t308, 2), P::lane(t313, 2), P::lane(t314, 2)]);
+    let t363 = mul_add(t196, t268, t189 * t258);
+    let t364 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
+    let t365 = P::lane(t323, 1) + t349;
+    let t366 = t350 + (P::lane(t306, 2) + (P::lane(t306, 1) + P::lane(t306, 0)));
+    let t367 = P::triple([P::lane(t319, 2), P::lane(t318, 2), P::lane(t317, 2)]);
+    let t368 = t354 + t355 + t367;
+    let t369 = mul_add(t114, t326, t137 * t309);
+    let t370 = mul_add(t114, t327, t137 * t311);
+    let t371 = mul_add(t114, t328, t137 * t312);
+    // wrench left at the trial acceleration
+    let t372 = neg_mul_add(t38, t358, mul_add(t287, t343, t335));
+    let t373 = neg_mul_add(t45, t356, mul_add(t288, t343, t336));
+    let t374 = neg_mul_add(t39, t357, mul_add(t289, t343, t337));
+    // mass matrix in base coordinates
+    let t375 = P::triple([P::lane(t339, 0), P::lane(t340, 0), P::lane(t341, 0)]);
+    let t376 = P::triple([P::lane(t339, 1), P::lane(t340, 1), P::lane(t341, 1)]);
+    let t377 = P::lane(t329, 2) + (P::lane(t329, 1) + P::lane(t329, 0));
+    let t378 = t364 + P::lane(t323, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t379 = mul_add(t113, P::splat(P::lane(t324, 2)), t360);
+    // inertia less external wrench that the actuators must balance
+    let t380 = mul_add(t5, P::splat(external_wrench[2]), t361);
+    // mass matrix in base coordinates
+    let t381 = t347 + t348 + t362 + P::splat(t366);
+    let t382 = mul_add(t218, t268, t208 * t258);
+    let t383 = P::lane(t330, 2) + (P::lane(t330, 1) + P::lane(t330, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t384 = t94 * P::splat(P::lane(t331, 1));
+    // mass matrix in base coordinates
+    let t385 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
+    let t386 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    let t387 = P::triple([P::lane(t339, 2), P::lane(t340, 2), P::lane(t341, 2)]);
+    let t388 = P::lane(t342, 2) + (P::lane(t342, 1) + P::lane(t342, 0));
+    let t389 = P::lane(t324, 0) + t377;
+    let t390 = P::mul_add(P::lane(t15, 2), t378, P::lane(t14, 2) * t365);
+    let t391 = P::mul_add(P::lane(t15, 0), t378, P::lane(t14, 0) * t365);
+    // wrench left at the trial acceleration
+    let t392 = mul_add(t45, t357, t372);
+    let t393 = mul_add(t39, t358, t373);
+    let t394 = mul_add(t38, t356, t374);
+    // mass matrix in base coordinates
+    let t395 = t375 + t376 + t387;
+    let t396 = P::lane(t344, 2) + (P::lane(t344, 1) + P::lane(t344, 0));
+    let t397 = P::lane(t323, 2) + t383;
+    // first moments by platform coordinate of the payload's inertia force
+    let t398 = mul_add(t101, P::splat(P::lane(t324, 0)), t384);
+    // wrench left at the trial acceleration
+    let t399 = t356 - mul_sub(t126, t343, neg_mul_add(t103, t302, t277));
+    let t400 = t357 - mul_sub(t117, t343, neg_mul_add(t95, t302, t278));
+    let t401 = t358 - mul_sub(t137, t343, neg_mul_add(t114, t302, t279));
+    // mass matrix in base coordinates
+    let t402 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
+    let t403 = mul_add(t296, t326, t287 * t309);
+    let t404 = mul_add(t297, t327, t288 * t311);
+    let t405 = mul_add(t298, t328, t289 * t312);
+    let t406 = P::lane(t331, 0) + t388;
+    let t407 = P::triple([P::lane(t368, 2), P::lane(t368, 2), P::lane(t368, 0)]);
+    let t408 = P::triple([P::lane(t368, 1), P::lane(t368, 0), P::lane(t368, 1)]);
+    let t409 = P::mul_add(P::lane(t15, 1), t378, P::lane(t14, 1) * t365);
+    let t410 = t385 + t386 + t402;
+    let t411 = P::triple([P::lane(t369, 0), P::lane(t370, 0), P::lane(t371, 0)]);
+    let t412 = P::triple([P::lane(t369, 1), P::lane(t370, 1), P::lane(t371, 1)]);
+    let t413 = mul_add(t296, t327, t287 * t311);
+    let t414 = mul_add(t296, t328, t287 * t312);
+    let t415 = mul_add(t297, t328, t288 * t312);
+    let t416 = P::lane(t331, 1) + t396;
+    let t417 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
+    // acceleration that removes the residual wrench
+    let t418 = mul_sub(t407, t408, t368 * t381);
+    // mass matrix in base coordinates
+    let t419 = P::mul_add(P::lane(t17, 2), t397, t390);
+    let t420 = P::mul_add(P::lane(t17, 0), t397, t391);
+    let t421 = P::lane(t363, 2) + (P::lane(t363, 1) + P::lane(t363, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t422 = mul_add(t113, P::splat(P::lane(t324, 1)), t398);
+    // inertia less external wrench that the actuators must balance
+    let t423 = P::triple([P::lane(t380, 1), P::lane(t380, 2), P::lane(t380, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t424 = P::triple([P::lane(t379, 1), P::lane(t379, 2), P::lane(t379, 0)]);
+    // mass matrix in base coordinates
+    let t425 = mul_add(t15, P::splat(t406), t14 * P::splat(t389));
+    // first moments by platform coordinate of the payload's inertia force
+    let t426 = t94 * P::splat(P::lane(t324, 1));
+    // inertia less external wrench that the actuators must balance
+    let t427 = neg_mul_add(P::splat(parameters.payload_com[0]), t423, t424);
+    // mass matrix in base coordinates
+    let t428 = P::triple([P::lane(t369, 2), P::lane(t370, 2), P::lane(t371, 2)]);
+    let t429 = P::lane(t324, 2) + t417;
+    let t430 = P::mul_add(P::lane(t17, 1), t397, t409);
+    let t431 = t411 + t412 + t428;
+    let t432 = P::lane(t324, 1) + t421;
+    let t433 = P::triple([P::lane(t381, 1), P::lane(t381, 0), P::lane(t381, 1)]);
+    let t434 = P::triple([P::lane(t381, 2), P::lane(t381, 2), P::lane(t381, 0)]);
+    let t435 = P::lane(t395, 0) - t419;
+    // wrench left at the trial acceleration
+    let t436 = P::triple([P::lane(t399, 0), P::lane(t400, 0), P::lane(t401, 0)]);
+    let t437 = P::triple([P::lane(t399, 1), P::lane(t400, 1), P::lane(t401, 1)]);
+    let t438 = P::triple([P::lane(t392, 0), P::lane(t393, 0), P::lane(t394, 0)]);
+    let t439 = P::triple([P::lane(t392, 1), P::lane(t393, 1), P::lane(t394, 1)]);
+    // mass matrix in base coordinates
+    let t440 = P::lane(t382, 2) + (P::lane(t382, 1) + P::lane(t382, 0));
+    // acceleration that removes the residual wrench
+    let t441 = mul_sub(t433, t434, t368 * t368);
+    // first moments by platform coordinate of the payload's inertia force
+    let t442 = mul_add(t101, P::splat(P::lane(t324, 2)), t426);
+    // mass matrix in base coordinates
+    let t443 = mul_add(t17, P::splat(t429), t425);
+    let t444 = mul_add(t15, P::splat(t389), t14 * P::splat(t416));
+    let t445 = P::triple([P::lane(t403, 0), P::lane(t404, 0), P::lane(t405, 0)]);
+    let t446 = P::triple([P::lane(t403, 1), P::lane(t404, 1), P::lane(t405, 1)]);
+    let t447 = t419 + P::lane(t410, 1);
+    let t448 = P::triple([t435, P::lane(t395, 1), t420 + P::lane(t395, 2)]);
+    // wrench left at the trial acceleration
+    let t449 = P::triple([P::lane(t399, 2), P::lane(t400, 2), P::lane(t401, 2)]);
+    let t450 = P::triple([P::lane(t392, 2), P::lane(t393, 2), P::lane(t394, 2)]);
+    // mass matrix in base coordinates
+    let t451 = P::lane(t331, 2) + t440;
+    let t452 = P::triple([P::lane(t415, 0), P::lane(t414, 0), P::lane(t413, 0)]);
+    let t453 = P::triple([P::lane(t415, 1), P::lane(t414, 1), P::lane(t413, 1)]);
+    // acceleration that removes the residual wrench
+    let t454 = P::splat(P::lane(t418, 2)) * t448;
+    // first moments by platform coordinate of the payload's inertia force
+    let t455 = mul_add(t113, P::splat(P::lane(t331, 2)), t442);
+    let t456 = P::triple([P::lane(t422, 1), P::lane(t422, 2), P::lane(t422, 0)]);
+    // mass matrix in base coordinates
+    let t457 = P::triple([P::lane(t403, 2), P::lane(t404, 2), P::lane(t405, 2)]);
+    let t458 = mul_add(t17, P::splat(t432), t444);
+    let t459 = mul_add(t15, P::splat(t429), t14 * P::splat(t432));
+    let t460 = P::triple([P::lane(t410, 0), t447, P::lane(t410, 2) - t430]);
+    // inertia less external wrench that the actuators must balance
+    let t461 = neg_mul_add(P::splat(parameters.payload_com[1]), t423, t456);
+    let t462 = P::triple([P::lane(t427, 1), P::lane(t427, 2), P::lane(t427, 0)]);
+    // mass matrix in base coordinates
+    let t463 = P::triple([P::lane(t415, 2), P::lane(t414, 2), P::lane(t413, 2)]);
+    // acceleration that removes the residual wrench
+    let t464 = mul_add(P::splat(P::lane(t441, 0)), t460, t454);
+    // mass matrix in base coordinates
+    let t465 = t430 + P::lane(t431, 0);
+    let t466 = P::lane(t431, 1) - t420;
+    // wrench left at the trial acceleration
+    let t467 = mul_add(t101, P::splat(P::lane(t323, 0)), t436 + t437 + t449);
+    let t468 = neg_mul_add(t70, t462, t438 + t439 + t450);
+    // mass matrix in base coordinates
+    let t469 = t445 + t446 + t457 + P::splat(t406 + t416 + t451);
+    let t470 = mul_add(t17, P::splat(t451), t459);
+    // rotation of the platform seen from the base
+    let t471 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t472 = P::triple([P::lane(t443, 1), P::lane(t443, 0), P::lane(t443, 0)]);
+    let t473 = P::triple([t465, t466, P::lane(t431, 2)]);
+    // rotation of the platform seen from the base
+    let t474 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t475 = neg_mul_add(t471, t472, t452 + t453 + t463);
+    // acceleration that removes the residual wrench
+    let t476 = mul_add(P::splat(P::lane(t418, 1)), t473, t464);
+    let t477 = t448 * P::splat(P::lane(t441, 1));
+    // wrench left at the trial acceleration
+    let t478 = mul_add(t94, P::splat(P::lane(t323, 1)), t467);
+    // acceleration that removes the residual wrench
+    let t479 = P::lane(t368, 2) * P::lane(t418, 2);
+    // first moments by platform coordinate of the payload's inertia force
+    let t480 = P::triple([P::lane(t455, 1), P::lane(t455, 2), P::lane(t455, 0)]);
+    // rotation of the platform seen from the base
+    let t481 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t482 = P::triple([P::lane(t458, 1), P::lane(t458, 0), P::lane(t458, 0)]);
+    // acceleration that removes the residual wrench
+    let t483 = mul_add(P::splat(P::lane(t418, 2)), t460, t477);
+    // inertia less external wrench that the actuators must balance
+    let t484 = neg_mul_add(P::splat(parameters.payload_com[2]), t423, t480);
+    let t485 = P::triple([P::lane(t461, 1), P::lane(t461, 2), P::lane(t461, 0)]);
+    // acceleration that removes the residual wrench
+    let t486 = t448 * P::splat(P::lane(t418, 0));
+    let t487 = P::mul_add(P::lane(t381, 0), P::lane(t441, 0), t479);
+    // wrench left at the trial acceleration
+    let t488 = neg_mul_add(t63, t485, mul_add(t427, t474, t468));
+    // mass matrix in base coordinates
+    let t489 = neg_mul_add(t14, t458, neg_mul_add(t15, t443, t469));
+    // rotation of the platform seen from the base
+    let t490 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t491 = mul_add(t473, P::splat(P::lane(t418, 0)), t483);
+    // mass matrix in base coordinates
+    let t492 = P::triple([P::lane(t470, 1), P::lane(t470, 0), P::lane(t470, 0)]);
+    // acceleration that removes the residual wrench
+    let t493 = mul_add(t460, P::splat(P::lane(t418, 1)), t486);
+    // rotation of the platform seen from the base
+    let t494 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t495 = neg_mul_add(t490, t492, neg_mul_add(t481, t482, t475));
+    // acceleration that removes the residual wrench
+    let t496 = P::mul_add(P::lane(t368, 1), P::lane(t418, 1), t487);
+    // mass matrix in base coordinates
+    let t497 = P::triple([t447, P::lane(t410, 0), P::lane(t410, 0)]);
+    // acceleration that removes the residual wrench
+    let t498 = P::triple([P::lane(t476, 2), P::lane(t476, 2), P::lane(t476, 1)]);
+    // wrench left at the trial acceleration
+    let t499 = t380 - mul_add(t113, P::splat(P::lane(t323, 2)), t478);
+    // mass matrix in base coordinates
+    let t500 = neg_mul_add(t17, t470, t489);
+    // acceleration that removes the residual wrench
+    let t501 = mul_add(t473, P::splat(P::lane(t441, 2)), t493);
+    // inertia less external wrench that the actuators must balance
+    let t502 = P::triple([P::lane(t484, 1), P::lane(t484, 2), P::lane(t484, 0)]);
+    // acceleration that removes the residual wrench
+    let t503 = mul_sub(t495, P::splat(t496), t497 * t498);
+    // wrench left at the trial acceleration
+    let t504 = neg_mul_add(t76, t502, mul_add(t461, t494, t488));
+    // acceleration that removes the residual wrench
+    let t505 = mul_sub(P::splat(t496), t500, t460 * t476);
+    // mass matrix in base coordinates
+    let t506 = P::triple([P::lane(t395, 1), t435, t435]);
+    // acceleration that removes the residual wrench
+    let t507 = P::triple([P::lane(t491, 2), P::lane(t491, 2), P::lane(t491, 1)]);
+    // rotation of the platform seen from the base
+    let t508 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t509 = P::triple([P::lane(t499, 1), P::lane(t499, 2), P::lane(t499, 0)]);
+    // acceleration that removes the residual wrench
+    let t510 = P::triple([P::lane(t418, 2), P::lane(t418, 0), P::lane(t418, 1)]);
+    // mass matrix in base coordinates
+    let t511 = P::triple([t466, t465, t465]);
+    // acceleration that removes the residual wrench
+    let t512 = P::triple([P::lane(t501, 2), P::lane(t501, 2), P::lane(t501, 1)]);
+    // wrench left at the trial acceleration
+    let t513 = P::triple([P::lane(t499, 2), P::lane(t499, 0), P::lane(t499, 1)]);
+    // acceleration that removes the residual wrench
+    let t514 = P::triple([P::lane(t418, 1), P::lane(t418, 2), P::lane(t418, 0)]);
+    let t515 = neg_mul_add(t511, t512, neg_mul_add(t506, t507, t503));
+    // wrench left at the trial acceleration
+    let t516 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t484, t508, t504));
+    // acceleration that removes the residual wrench
+    let t517 = neg_mul_add(t473, t501, neg_mul_add(t448, t491, t505));
+    let t518 = mul_add(t513, t514, mul_add(t441, t499, t509 * t510));
+    // wrench left at the trial acceleration
+    let t519 = mul_add(t1, P::splat(external_wrench[4]), t516);
+    // acceleration that removes the residual wrench
+    let t520 = P::triple([P::lane(t515, 1), P::lane(t515, 0), P::lane(t515, 1)]);
+    let t521 = P::triple([P::lane(t515, 2), P::lane(t515, 2), P::lane(t515, 0)]);
+    // wrench left at the trial acceleration
+    let t522 = mul_add(t5, P::splat(external_wrench[5]), t519);
+    // acceleration that removes the residual wrench
+    let t523 = mul_sub(t520, t521, t515 * t517);
+    let t524 = P::triple([P::lane(t517, 1), P::lane(t517, 0), P::lane(t517, 1)]);
+    let t525 = mul_sub(P::splat(t496), t522, t460 * P::splat(P::lane(t518, 0)));
+    let t526 = P::triple([P::lane(t517, 2), P::lane(t517, 2), P::lane(t517, 0)]);
+    let t527 = mul_sub(t524, t526, t515 * t515);
+    let t528 = P::triple([P::lane(t476, 0), P::lane(t491, 0), P::lane(t501, 0)]);
+    let t529 = P::triple([P::lane(t476, 1), P::lane(t491, 1), P::lane(t501, 1)]);
+    let t530 = neg_mul_add(t448, P::splat(P::lane(t518, 1)), t525);
+    let t531 = P::triple([P::lane(t476, 2), P::lane(t491, 2), P::lane(t501, 2)]);
+    let t532 = P::lane(t515, 2) * P::lane(t523, 2);
+    let t533 = P::triple([P::lane(t523, 2), P::lane(t523, 0), P::lane(t523, 1)]);
+    let t534 = P::triple([P::lane(t523, 1), P::lane(t523, 2), P::lane(t523, 0)]);
+    // constant and copied elements
+    let t535 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t536 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t537 = P::mul_add(P::lane(t517, 0), P::lane(t527, 0), t532);
+    let t538 = neg_mul_add(t473, P::splat(P::lane(t518, 2)), t530);
+    // constant and copied elements
+    let t539 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
+    let t540 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t541 = c(1.0) / P::mul_add(P::lane(t515, 1), P::lane(t523, 1), t537);
+    let t542 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
+    let t543 = P::triple([P::lane(t538, 2), P::lane(t538, 0), P::lane(t538, 1)]);
+    let t544 = mul_add(t534, t543, mul_add(t527, t538, t533 * t542));
+    let t545 = P::splat(t541) * t544;
+    let t546 = neg_mul_add(t528, P::splat(P::lane(t545, 0)), t518);
+    // platform acceleration v_p'
+    let t547 = t535 * P::splat(P::lane(t545, 1));
+    // acceleration that removes the residual wrench
+    let t548 = neg_mul_add(t529, P::splat(P::lane(t545, 1)), t546);
+    // platform acceleration v_p'
+    let t549 = mul_add(t536, P::splat(P::lane(t545, 0)), t547);
+    // acceleration that removes the residual wrench
+    let t550 = neg_mul_add(t531, P::splat(P::lane(t545, 2)), t548);
+    // platform acceleration v_p'
+    let t551 = mul_add(t540, P::splat(P::lane(t545, 2)), t549);
+    // acceleration that removes the residual wrench
+    let t552 = P::splat(c(1.0) / t496) * t550;
+    // platform acceleration v_p'
+    let t553 = t535 * P::splat(P::lane(t552, 1));
+    let t554 = mul_add(t536, P::splat(P::lane(t552, 0)), t553);
+    let t555 = mul_add(t540, P::splat(P::lane(t552, 2)), t539) + t554;
+    forward_dynamics[0] = P::lane(t555, 0);
+    forward_dynamics[1] = P::lane(t555, 1);
+    forward_dynamics[2] = P::lane(t555, 2);
+    forward_dynamics[3] = P::lane(t551, 0);
+    forward_dynamics[4] = P::lane(t551, 1);
+    forward_dynamics[5] = P::lane(t551, 2);
 }

@@ -15,11 +15,14 @@ pub(super) fn by_elimination<T: Lanes, const N: usize>(
             *scale = larger(*scale, element.absolute());
         }
     }
+    let mut inverse_scales = scales.map(|scale| T::constant(1.0) / scale);
+    let mut reciprocals = inverse_scales;
     for column in 0..N {
-        exchange_for_largest(&mut rows, &mut right, &mut scales, column);
+        exchange_for_largest(&mut rows, &mut right, &mut inverse_scales, column);
         let (pivot, known) = (rows[column], right[column]);
+        reciprocals[column] = T::constant(1.0) / pivot[column];
         for below in column + 1..N {
-            let factor = rows[below][column] / pivot[column];
+            let factor = rows[below][column] * reciprocals[column];
             for k in column + 1..N {
                 rows[below][k] = rows[below][k] - factor * pivot[k];
             }
@@ -31,7 +34,7 @@ pub(super) fn by_elimination<T: Lanes, const N: usize>(
         for k in i + 1..N {
             sum = sum - rows[i][k] * right[k];
         }
-        right[i] = sum / rows[i][i];
+        right[i] = sum * reciprocals[i];
     }
     right
 }
@@ -47,14 +50,14 @@ fn larger<T: Lanes>(largest: T, number: T) -> T {
 fn exchange_for_largest<T: Lanes, const N: usize>(
     rows: &mut [[T; N]; N],
     right: &mut [T; N],
-    scales: &mut [T; N],
+    inverse_scales: &mut [T; N],
     column: usize,
 ) {
     // The chosen row as a number per lane.
     let mut chosen = T::constant(column as f64);
-    let mut largest = rows[column][column].absolute() / scales[column];
+    let mut largest = rows[column][column].absolute() * inverse_scales[column];
     for below in column + 1..N {
-        let size = rows[below][column].absolute() / scales[below];
+        let size = rows[below][column].absolute() * inverse_scales[below];
         let better = largest.less_than(size);
         largest = T::select(better, size, largest);
         chosen = T::select(better, T::constant(below as f64), chosen);
@@ -68,7 +71,7 @@ fn exchange_for_largest<T: Lanes, const N: usize>(
         }
         let (above, from_below) = right.split_at_mut(below);
         exchange(here, &mut above[column], &mut from_below[0]);
-        let (above, from_below) = scales.split_at_mut(below);
+        let (above, from_below) = inverse_scales.split_at_mut(below);
         exchange(here, &mut above[column], &mut from_below[0]);
     }
 }
