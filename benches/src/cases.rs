@@ -278,7 +278,7 @@ addresses!(matrices_inputs: 6, base_position, base_rotation, base_velocity, plat
     platform_velocity);
 
 /// Calls a model with a state.
-pub(crate) fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
+pub fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.inverse_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -294,7 +294,7 @@ pub(crate) fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Input
 }
 
 /// Calls a model with a state.
-pub(crate) fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
+pub fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.forward_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -310,7 +310,7 @@ pub(crate) fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Input
 }
 
 /// Calls a model with a state.
-pub(crate) fn matrices<T>(model: &impl Matrices<T>, state: &Inputs<T>, output: &mut [Matrix<T>; 6]) {
+pub fn matrices<T>(model: &impl Matrices<T>, state: &Inputs<T>, output: &mut [Matrix<T>; 6]) {
     let [mass_p, coriolis_p, jacobian_dp, mass_b, coriolis_b, jacobian_db] = output;
     model.matrices(
         &state.base_position,
