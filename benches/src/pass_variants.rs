@@ -104,9 +104,7 @@ mod tests {
     #[test]
     fn passes_are_missed() {
         let all = operations(&platform(), &variants()[0]).unwrap();
-        for (name, index) in
-            [("without share", 0), ("without merge", 0), ("fuse alone", 0), ("without sums", 1)]
-        {
+        for (name, index) in [("without merge", 0), ("fuse alone", 0), ("without sums", 1)] {
             let variant = variants().into_iter().find(|variant| variant.name == name).unwrap();
             let counted = operations(&platform(), &variant).unwrap();
             assert!(counted[0][index] > all[0][index], "{name}: {counted:?}, {all:?}");
