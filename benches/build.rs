@@ -2,7 +2,8 @@
 //! platform is measured; and, with the feature `peers`, where other people's code for it lies.
 //!
 //! `cargo xtask bench` sets `DYN_BENCHES_PLATFORM` (a platform file), `DYN_BENCHES_MODEL` (what dyn-gen generated for it) and
-//! `DYN_PEERS` (a folder it filled). Without them: the paper's platform, and no peers.
+//! `DYN_PEERS` (a folder it filled). Without them: the paper's platform, and no peers. `cargo xtask passes` sets
+//! `DYN_BENCHES_VARIANTS` (a folder of models).
 
 use std::env::var;
 use std::path::{Path, PathBuf};
@@ -31,6 +32,7 @@ fn main() {
     let out = PathBuf::from(var("OUT_DIR").expect("cargo sets OUT_DIR"));
     write(&out.join("model.rs"), &model());
     write(&out.join("peers.rs"), &peers());
+    write(&out.join("variants.rs"), &variants());
 }
 
 /// The module of the model that is measured, and its platform file for the program.
@@ -63,11 +65,30 @@ fn peers() -> String {
     text
 }
 
+/// A module for each model in `DYN_BENCHES_VARIANTS`, and a function that shows them all by the macro of `benches/passes.rs`.
+fn variants() -> String {
+    let folder = given("DYN_BENCHES_VARIANTS").filter(|_| env::var_os("CARGO_FEATURE_VARIANTS").is_some());
+    let entries = folder.into_iter().flat_map(|folder| fs::read_dir(folder).into_iter().flatten());
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut paths: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "rs")).collect();
+    paths.sort();
+    let (mut modules, mut shown) = (String::new(), String::new());
+    for path in paths {
+        let module = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        println!("cargo::rerun-if-changed={}", path.display());
+        modules += &format!("#[path = {path:?}]\n#[rustfmt::skip]\n#[allow(dead_code)]\nmod {module};\n");
+        shown += &format!("    show!({:?}, {module}, states, visitor);\n", module.replace('_', " "));
+    }
+    format!("{modules}fn visit(states: &States, visitor: &mut impl Visitor) {{\n{shown}}}\n")
+}
+
 /// A path in an environment variable, watched.
 fn given(name: &str) -> Option<PathBuf> {
     println!("cargo::rerun-if-env-changed={name}");
     let path = env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)?;
-    let watched = if path.is_dir() { path.join("peers.rs") } else { path.clone() };
+    let table = path.join("peers.rs");
+    let watched = if table.is_file() { table } else { path.clone() };
     println!("cargo::rerun-if-changed={}", watched.display());
     Some(path)
 }

@@ -45,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             functions: None,
             command: "cargo test -p dyn-tests".into(),
             evidence: None,
+            without: Vec::new(),
         };
         let target = out.join(format!("{name}.rs"));
         let file = GraphFile::of(platform.leg_type)?;

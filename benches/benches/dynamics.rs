@@ -1,4 +1,5 @@
-//! Times of generated code beside everything it is compared with: ids `FUNCTION/IMPLEMENTATION/{throughput,latency}`.
+//! Times of generated code beside everything it is compared with: ids `FUNCTION/IMPLEMENTATION/{throughput,latency}`. Ends with the
+//! table of ratios, which goes into the folder `DYN_BENCHES_WRITE` too, if that is set.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -8,7 +9,9 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
 use dyn_benches::accuracy::{self, Exact};
 use dyn_benches::call::{Call, latency, throughput};
 use dyn_benches::cases::{Case, FUNCTIONS, IMPLEMENTATIONS, Visitor, all, check_agreement, visit};
-use dyn_benches::results::{SINGLE_CALLS, VARIANTS, results_folder, write_own};
+use dyn_benches::machine::Machine;
+use dyn_benches::ratios::summarise;
+use dyn_benches::results::{MACHINE, SINGLE_CALLS, VARIANTS, results_folder, write_own};
 use dyn_benches::selection::Selection;
 use dyn_benches::states::{COUNT, States, platform, sampled};
 use dyn_benches::{CODEGEN, batch, tail};
@@ -32,10 +35,11 @@ fn main() {
     }
 
     let selection = Selection::measure(&platform, &states);
-    // Short enough to stay within a few minutes, in which a machine hardly changes its mood.
+    // Short enough for everything to take three minutes, in which a machine hardly changes its mood.
     let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(500))
-        .measurement_time(Duration::from_secs(2))
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1))
+        .nresamples(10_000)
         .configure_from_args();
     for function in FUNCTIONS {
         let mut timer = Timer { group: criterion.benchmark_group(function), selection: &selection };
@@ -47,9 +51,17 @@ fn main() {
 
     let folder = results_folder();
     let written = write_own(&folder, VARIANTS, &selection.variants())
+        .and_then(|()| write_own(&folder, MACHINE, &Machine::now()))
         .and_then(|()| write_own(&folder, SINGLE_CALLS, &tail::measure(&platform, &states, &selection)));
-    if let Err(reason) = written {
-        eprintln!("error: {reason}");
+    let report = || {
+        let summary = summarise(&folder)?;
+        let into = std::env::var_os("DYN_BENCHES_WRITE");
+        let written = into.map(|into| summary.write(Path::new(&into))).transpose()?;
+        Ok(format!("\n{}{}", summary.text(), written.unwrap_or_default()))
+    };
+    match written.and_then(|()| report()) {
+        Ok(text) => print!("{text}"),
+        Err(reason) => eprintln!("error: {reason}"),
     }
 }
 

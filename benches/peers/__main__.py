@@ -120,13 +120,15 @@ def write(function: ca.Function, folder: Path) -> None:
     """C with one entry, named by the macro PEER, that everything else may be inlined into.
 
     CasADi's own functions become static, its entries by the macro CASADI_SYMBOL_EXPORT: compiled twice, they would collide. A
-    function of scalars needs no work arrays.
+    function of scalars needs no work arrays. What stands there already is not touched, so that it need not be compiled again.
     """
     generator = ca.CodeGenerator(f"{function.name()}.c")
     generator.add(function)
     text = re.sub(r"^casadi_real (?=casadi_\w+\()", "static casadi_real ", generator.dump(), flags=re.MULTILINE)
     entry = "void PEER(const casadi_real** arg, casadi_real** res) { casadi_f0(arg, res, 0, 0, 0); }"
-    (folder / f"{function.name()}.c").write_text(f"{text}\n{entry}\n", encoding="utf-8")
+    text, path = f"{text}\n{entry}\n", folder / f"{function.name()}.c"
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ use dyn_runtime::models::Uhp;
 
 use crate::angles;
 use crate::call::{Call, Generated, Reference};
+use crate::flat::Flat;
 use crate::model::Baked;
 use crate::output::Output;
 use crate::peers::{Peer, Pinocchio};
@@ -24,8 +25,9 @@ pub const FUNCTIONS: [&str; 7] = [
     "inverse_dynamics_from_angles",
 ];
 
-/// Every implementation, in the order of tables; not each has every function. Numbers baked in, six legs in lanes, many states
-/// in lanes, parameters at run time, written by hand, C by CasADi of the same graph and of the naive one, Pinocchio.
+/// Every implementation, in the order of tables; not each has every function. Numbers baked in: without lanes, by the model's own
+/// method in lanes, many states in lanes; parameters at run time, written by hand, C by CasADi of the same graph and of the naive
+/// one, Pinocchio.
 pub const IMPLEMENTATIONS: [&str; 8] = [
     "generated",
     "generated_lanes",
@@ -73,6 +75,7 @@ pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut
                 "inverse_dynamics",
                 inverse_dynamics,
                 inverse_dynamics,
+                inverse_dynamics,
                 dyn_reference::inverse_dynamics,
             );
             cases.peers::<[f64; 6], 9>("inverse_dynamics", inverse_dynamics_inputs);
@@ -82,23 +85,34 @@ pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut
                 "forward_dynamics",
                 forward_dynamics,
                 forward_dynamics,
+                forward_dynamics,
                 dyn_reference::forward_dynamics,
             );
             cases.peers::<[f64; 6], 9>("forward_dynamics", forward_dynamics_inputs);
             cases.pinocchio();
         }
         "matrices" => {
-            cases.own("matrices", matrices, matrices, dyn_reference::matrices);
+            cases.own("matrices", matrices, matrices, matrices, dyn_reference::matrices);
             cases.peers::<[Matrix; 6], 6>("matrices", matrices_inputs);
         }
         "mass_matrix_p" => {
-            cases.own("mass_matrix_p", mass_matrix_p, mass_matrix_p, dyn_reference::mass_matrix_p);
+            let reference = dyn_reference::mass_matrix_p;
+            cases.own("mass_matrix_p", mass_matrix_p, mass_matrix_p, mass_matrix_p, reference);
         }
         "coriolis_matrices" => {
             let reference = dyn_reference::coriolis_matrices;
-            cases.own("coriolis_matrices", coriolis_matrices, coriolis_matrices, reference);
+            cases.own(
+                "coriolis_matrices",
+                coriolis_matrices,
+                coriolis_matrices,
+                coriolis_matrices,
+                reference,
+            );
         }
-        "jacobian_dp" => cases.own("jacobian_dp", jacobian_dp, jacobian_dp, dyn_reference::jacobian_dp),
+        "jacobian_dp" => {
+            let reference = dyn_reference::jacobian_dp;
+            cases.own("jacobian_dp", jacobian_dp, jacobian_dp, jacobian_dp, reference);
+        }
         "inverse_dynamics_from_angles" => cases.turned_by_angles(),
         unknown => panic!("no function `{unknown}`; there are {}", FUNCTIONS.join(", ")),
     }
@@ -171,6 +185,11 @@ impl Visitor for Agreement {
     }
 }
 
+/// Whether a baked model's method is code in lanes of its own: not every function has such, nor every processor registers for it.
+fn has_lanes(function: &str) -> bool {
+    dyn_gen::IN_LANES.contains(&function) && dyn_runtime::triple::in_registers()
+}
+
 struct Cases<'a, V> {
     platform: &'a Platform,
     states: &'a States,
@@ -184,14 +203,19 @@ impl<V: Visitor> Cases<'_, V> {
     fn own<O: Output + Default, R: Output>(
         &mut self,
         function: &'static str,
-        baked: impl Fn(&Baked, &Inputs, &mut O),
+        flat: impl Fn(&Flat<Baked>, &Inputs, &mut O),
+        method: impl Fn(&Baked, &Inputs, &mut O),
         runtime: impl Fn(&Uhp, &Inputs, &mut O),
         reference: impl Fn(&dyn_reference::Parameters, &dyn_reference::State) -> R,
     ) {
         let case = |implementation| Case { function, implementation, variant: "" };
         let states = self.states;
-        let baked = Generated { model: Baked, function: baked, output: O::default() };
-        self.visitor.visit(case("generated"), &states.inputs, baked);
+        let flat = Generated { model: Flat::default(), function: flat, output: O::default() };
+        self.visitor.visit(case("generated"), &states.inputs, flat);
+        if has_lanes(function) {
+            let method = Generated { model: Baked, function: method, output: O::default() };
+            self.visitor.visit(case("generated_lanes"), &states.inputs, method);
+        }
         let runtime = Generated { model: self.model, function: runtime, output: O::default() };
         self.visitor.visit(case("generated_runtime"), &states.inputs, runtime);
         let reference = Reference { parameters: self.parameters, function: reference };
@@ -222,8 +246,12 @@ impl<V: Visitor> Cases<'_, V> {
         let case =
             |implementation| Case { function: "inverse_dynamics_from_angles", implementation, variant: "" };
         let states = angles::states(self.states);
-        let generated = angles::Generated { model: Baked, output: [0.0; 6] };
-        self.visitor.visit(case("generated"), &states, generated);
+        let flat = angles::Generated { model: Flat::<Baked>::default(), output: [0.0; 6] };
+        self.visitor.visit(case("generated"), &states, flat);
+        if has_lanes("inverse_dynamics") {
+            let method = angles::Generated { model: Baked, output: [0.0; 6] };
+            self.visitor.visit(case("generated_lanes"), &states, method);
+        }
         let runtime = angles::Generated { model: self.model, output: [0.0; 6] };
         self.visitor.visit(case("generated_runtime"), &states, runtime);
         let reference = angles::Reference { parameters: self.parameters };
@@ -250,7 +278,7 @@ addresses!(matrices_inputs: 6, base_position, base_rotation, base_velocity, plat
     platform_velocity);
 
 /// Calls a model with a state.
-pub(crate) fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
+pub fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.inverse_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -266,7 +294,7 @@ pub(crate) fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Input
 }
 
 /// Calls a model with a state.
-pub(crate) fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
+pub fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.forward_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -282,7 +310,7 @@ pub(crate) fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Input
 }
 
 /// Calls a model with a state.
-pub(crate) fn matrices<T>(model: &impl Matrices<T>, state: &Inputs<T>, output: &mut [Matrix<T>; 6]) {
+pub fn matrices<T>(model: &impl Matrices<T>, state: &Inputs<T>, output: &mut [Matrix<T>; 6]) {
     let [mass_p, coriolis_p, jacobian_dp, mass_b, coriolis_b, jacobian_db] = output;
     model.matrices(
         &state.base_position,

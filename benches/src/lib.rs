@@ -7,6 +7,7 @@
 //! | [`output`] | results that differ in type, read alike |
 //! | [`call`] | one call of one function by one implementation; the loops around it |
 //! | [`cases`] | the table of functions and implementations |
+//! | [`flat`] | the baked model without lanes |
 //! | [`angles`] | rotations given by angles |
 //! | [`peers`] | other people's code for the same functions |
 //! | [`accuracy`] | rounding errors, against fifty digits |
@@ -15,12 +16,13 @@
 //! | [`counts`] | instructions per call, by callgrind |
 //! | [`budget`] | counts that may not grow |
 //! | [`results`], [`ratios`] | criterion's results, and ratios from them |
-//! | [`ratio_plot`] | those as a plot |
+//! | [`ratio_tables`], [`ratio_plot`] | those as tables and as a plot |
 //! | [`bundle`] | everything that a controller asks of the model in a cycle |
 //! | [`control_loop`], [`machine`], [`loop_plot`] | the same in a loop at 10 kHz: times, circumstances, plot |
+//! | [`pass_variants`] | models made without some passes |
 //! | [`table`] | text tables |
 //!
-//! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up, `control_loop` runs a loop.
+//! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up, `passes` tells what each pass is worth, `control_loop` runs a loop.
 
 pub mod accuracy;
 pub mod angles;
@@ -31,11 +33,14 @@ pub mod call;
 pub mod cases;
 pub mod control_loop;
 pub mod counts;
+pub mod flat;
 pub mod loop_plot;
 pub mod machine;
 pub mod output;
+pub mod pass_variants;
 pub mod peers;
 pub mod ratio_plot;
+pub mod ratio_tables;
 pub mod ratios;
 pub mod results;
 pub mod selection;

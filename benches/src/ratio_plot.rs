@@ -34,7 +34,7 @@ pub fn write(path: &Path, summary: &Summary) -> Result<(), Box<dyn Error>> {
 
     let root = SVGBackend::new(path, (WIDTH, bars + FRAME)).into_drawing_area();
     root.fill(&WHITE)?;
-    let processor = summary.processor.as_deref().unwrap_or("unnamed processor");
+    let processor = summary.machine.as_ref().map_or("unknown processor", |machine| &machine.processor);
     let mut chart = ChartBuilder::on(&root)
         .caption(format!("Nanoseconds per call, throughput, {processor}"), ("sans-serif", 17))
         .margin(12)

@@ -7,9 +7,9 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::cases::{FUNCTIONS, IMPLEMENTATIONS};
-use crate::results::{self, MEASURES, SINGLE_CALLS, Time, VARIANTS, processor};
+use crate::machine::Machine;
+use crate::results::{self, MACHINE, MEASURES, SINGLE_CALLS, Time, VARIANTS};
 use crate::selection::Variant;
-use crate::table;
 use crate::tail::Tails;
 
 /// Results further apart in time than this are taken for results of different runs; a whole run takes some minutes.
@@ -36,7 +36,8 @@ impl Ours {
         }
     }
 
-    fn name(self) -> &'static str {
+    /// As tables name it.
+    pub fn name(self) -> &'static str {
         match self {
             Self::SingleState => "single state",
             Self::Batch => "batch",
@@ -60,8 +61,11 @@ const COMPARISONS: [Comparison; 9] = [
     ("throughput", Ours::Batch, "casadi_c_same", [6.0, 6.0, 4.0]),
     ("throughput", Ours::RunTime, "reference", [0.0; 3]),
     // Run-time parameters cost at most 1.35 times the baked model.
-    ("throughput", Ours::RunTime, "generated", [1.0 / 1.35, 1.0 / 1.35, 1.0 / 1.35]),
+    ("throughput", Ours::RunTime, BAKED, [1.0 / 1.35, 1.0 / 1.35, 1.0 / 1.35]),
 ];
+
+/// The other side of a comparison that is [`Ours::SingleState`] too.
+const BAKED: &str = "baked";
 
 /// The functions that [`COMPARISONS`] has factors for.
 const AIMED: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"];
@@ -86,10 +90,12 @@ pub struct Ratio {
     pub measure: String,
     /// Our side.
     pub ours: Ours,
-    /// The other implementation.
+    /// The other implementation; `baked` is the faster one of [`Ours::SingleState`].
     pub against: String,
     /// Its median over ours; nothing where one of them was not measured.
     pub ratio: Option<f64>,
+    /// Whether something else kept the machine busy during one of the two, so that the ratio should not be quoted.
+    pub disturbed: bool,
     /// What it shall be.
     pub target: Option<f64>,
 }
@@ -104,8 +110,8 @@ impl Ratio {
 /// Everything found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// The processor, where it has a name.
-    pub processor: Option<String>,
+    /// The machine at the end of the measurement, if the benchmark has ended.
+    pub machine: Option<Machine>,
     /// Whether all times were taken within minutes of one another.
     pub one_run: bool,
     /// By function and measure.
@@ -144,7 +150,7 @@ pub fn summarise(folder: &Path) -> Result<Summary, String> {
     let one_run = last.duration_since(*first).is_ok_and(|apart| apart <= ONE_RUN);
     let ratios = ratios(&rows);
     Ok(Summary {
-        processor: processor(),
+        machine: results::read_own(folder, MACHINE)?,
         one_run,
         rows,
         ratios,
@@ -160,9 +166,14 @@ fn ratios(rows: &[Row]) -> Vec<Ratio> {
         for (measure, ours, against, targets) in COMPARISONS {
             let target = aim.map(|index| targets[index]).filter(|&target| target > 0.0);
             let row = rows.iter().find(|row| row.function == function && row.measure == measure);
-            let time = |name: &str| Some(row?.nanoseconds.get(name)?.median);
-            let best = ours.implementations().iter().filter_map(|&name| time(name)).min_by(f64::total_cmp);
-            let ratio = time(against).zip(best).map(|(other, best)| other / best);
+            let time = |name: &str| row?.nanoseconds.get(name).copied();
+            let fastest = |ours: Ours| {
+                let times = ours.implementations().iter().filter_map(|&name| time(name));
+                times.min_by(|a, b| a.median.total_cmp(&b.median))
+            };
+            let other = if against == BAKED { fastest(Ours::SingleState) } else { time(against) };
+            let both = other.zip(fastest(ours));
+            let ratio = both.map(|(other, ours)| other.median / ours.median);
             if target.is_some() || ratio.is_some() {
                 ratios.push(Ratio {
                     function: function.to_owned(),
@@ -170,105 +181,13 @@ fn ratios(rows: &[Row]) -> Vec<Ratio> {
                     ours,
                     against: against.to_owned(),
                     ratio,
+                    disturbed: both.is_some_and(|(other, ours)| other.disturbed() || ours.disturbed()),
                     target,
                 });
             }
         }
     }
     ratios
-}
-
-impl Summary {
-    /// The tables, and what one must know to read them.
-    pub fn text(&self) -> String {
-        let processor = self.processor.as_deref().unwrap_or("unnamed processor");
-        let mut text = format!("nanoseconds per call (median), {processor}\n{}", self.times());
-        text += &format!("\nhow many times faster\n{}", self.ratio_table());
-        if !self.single_calls.is_empty() {
-            text += &format!("\nnanoseconds of single calls, median / 99th percentile\n{}", self.tails());
-        }
-        if !self.variants.is_empty() {
-            text += &format!(
-                "\nvariants of peers, nanoseconds per call in a short run\n{}",
-                self.variant_table()
-            );
-        }
-        let mut times = self.rows.iter().flat_map(|row| row.nanoseconds.values());
-        if times.any(Time::disturbed) {
-            text +=
-                "* disturbed: the median is more than 10 % above the fastest sample. Close other programs.\n";
-        }
-        if !self.one_run {
-            text +=
-                "These times come from different runs: their ratios mean little. Run all benchmarks again.\n";
-        }
-        text
-    }
-
-    fn times(&self) -> String {
-        let time = |row: &Row, name: &str| {
-            row.nanoseconds.get(name).map_or_else(
-                || "absent".to_owned(),
-                |time| format!("{:.1}{}", time.median, if time.disturbed() { "*" } else { " " }),
-            )
-        };
-        let cells = |row: &Row| {
-            let names = [row.function.clone(), row.measure.clone()];
-            names.into_iter().chain(IMPLEMENTATIONS.map(|name| time(row, name))).collect()
-        };
-        let heading: Vec<&str> = ["function", "measure"].into_iter().chain(IMPLEMENTATIONS).collect();
-        table::text(&heading, &self.rows.iter().map(cells).collect::<Vec<_>>(), 2)
-    }
-
-    fn ratio_table(&self) -> String {
-        let cells = |row: &Ratio| {
-            let verdict = match (row.target, row.met()) {
-                (None, _) => String::new(),
-                (Some(target), None) => format!("{target:.2} not measured"),
-                (Some(target), Some(true)) => format!("{target:.2} met"),
-                (Some(target), Some(false)) => format!("{target:.2} MISSED"),
-            };
-            let ratio = row.ratio.map_or_else(|| "absent".into(), |ratio| format!("{ratio:.2}"));
-            vec![
-                row.function.clone(),
-                row.measure.clone(),
-                row.ours.name().into(),
-                row.against.clone(),
-                ratio,
-                verdict,
-            ]
-        };
-        let heading = ["function", "measure", "ours", "against", "ratio", "target"];
-        table::text(&heading, &self.ratios.iter().map(cells).collect::<Vec<_>>(), 4)
-    }
-
-    fn tails(&self) -> String {
-        let cell = |function: &str, name: &str| {
-            let tail = self.single_calls.get(function).and_then(|row| row.get(name));
-            tail.map_or_else(|| "absent".into(), |tail| format!("{} / {}", tail.median, tail.p99))
-        };
-        let functions = FUNCTIONS.iter().filter(|&&function| self.single_calls.contains_key(function));
-        let rows = functions.map(|&function| {
-            let cells = IMPLEMENTATIONS.map(|name| cell(function, name));
-            [function.to_owned()].into_iter().chain(cells).collect()
-        });
-        let heading: Vec<&str> = ["function"].into_iter().chain(IMPLEMENTATIONS).collect();
-        table::text(&heading, &rows.collect::<Vec<_>>(), 1)
-    }
-
-    fn variant_table(&self) -> String {
-        let cells = |row: &Variant| {
-            let cell = |measure: &str| {
-                let time = row.nanoseconds.get(measure).copied().unwrap_or(f64::NAN);
-                let best = row.best.get(measure).copied().unwrap_or(false);
-                format!("{time:.1}{}", if best { " best" } else { "     " })
-            };
-            let [throughput, latency] = MEASURES.map(cell);
-            vec![row.function.clone(), row.implementation.clone(), row.variant.clone(), throughput, latency]
-        };
-        let heading = ["function", "implementation", "variant", "throughput", "latency"];
-        table::text(&heading, &self.variants.iter().map(cells).collect::<Vec<_>>(), 3)
-    }
 }
 
 #[cfg(test)]
@@ -324,9 +243,10 @@ mod tests {
         assert_eq!(ratio(Ours::SingleState, "reference").met(), Some(true));
         assert_eq!(ratio(Ours::SingleState, "casadi_c_same").met(), Some(false));
         assert_eq!(ratio(Ours::Batch, "casadi_c_same").met(), None);
-        assert_eq!(ratio(Ours::RunTime, "generated").met(), Some(false));
+        assert_eq!(ratio(Ours::RunTime, "baked").met(), Some(false));
+        assert_eq!(ratio(Ours::RunTime, "baked").ratio, Some(80.0 / 150.0));
         let text = summary.text();
-        for expected in ["9.00 met", "1.90 MISSED", "6.00 not measured", "absent"] {
+        for expected in ["9.00 met", "1.90 MISSED by 11 %", "6.00 not measured", "absent"] {
             assert!(text.contains(expected), "{text}");
         }
         assert!(!text.contains("disturbed"), "{text}");
@@ -340,6 +260,9 @@ mod tests {
         fs::write(path, samples).unwrap();
         let text = summarise(folder.path()).unwrap().text();
         assert!(text.contains("1000.0*") && text.contains("* disturbed"), "{text}");
+        write(folder.path(), "matrices/generated/latency", 100.0);
+        let text = summarise(folder.path()).unwrap().text();
+        assert!(text.contains("10.00*"), "{text}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What the benchmark left behind: criterion's estimates and samples, figures of peers' variants, times of single calls.
+//! What the benchmark left behind: criterion's estimates and samples, figures of peers' variants, times of single calls, the machine.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,9 @@ pub const MEASURES: [&str; 2] = ["throughput", "latency"];
 pub const VARIANTS: &str = "variants.json";
 /// Times of single calls, in criterion's folder.
 pub const SINGLE_CALLS: &str = "single_calls.json";
+
+/// Processor and load at the end of the measurement, in criterion's folder.
+pub const MACHINE: &str = "machine.json";
 
 /// How far the median of a quiet machine lies above the fastest sample at most.
 const QUIET: f64 = 1.1;
@@ -110,13 +113,6 @@ pub fn write_own(folder: &Path, name: &str, value: &impl Serialize) -> Result<()
     let path = folder.join(name);
     let text = serde_json::to_string_pretty(value).map_err(|error| refusal(&path, &error))?;
     fs::create_dir_all(folder).and_then(|()| fs::write(&path, text)).map_err(|error| refusal(&path, &error))
-}
-
-/// Linux's name of the processor.
-pub fn processor() -> Option<String> {
-    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(':')?.1.trim().to_owned())
 }
 
 fn refusal(path: &Path, reason: &dyn std::fmt::Display) -> String {

@@ -40,12 +40,17 @@ pub struct Selection {
 impl Selection {
     /// Measures every variant of every peer.
     pub fn measure(platform: &Platform, states: &States) -> Self {
-        let mut selection = Self::default();
-        for _ in 0..ROUNDS {
+        Self::of(|selection| {
             for function in FUNCTIONS {
-                visit(function, platform, states, &mut selection);
+                visit(function, platform, states, selection);
             }
-        }
+        })
+    }
+
+    /// Measures every case with a variant that `show` shows, turn by turn.
+    pub fn of(mut show: impl FnMut(&mut Self)) -> Self {
+        let mut selection = Self::default();
+        (0..ROUNDS).for_each(|_| show(&mut selection));
         selection
     }
 

@@ -144,6 +144,7 @@ impl Build {
             functions: self.functions.clone(),
             command: "cargo build (dyn_gen::Build in build.rs)".into(),
             evidence: self.evidence,
+            without: Vec::new(),
         };
         let numbers = Numbers::with_run_time(&platform, &self.runtime);
         let generated = generate(&GraphFile::of(platform.leg_type)?, &numbers, &options)?;

@@ -43,6 +43,9 @@ pub struct Options {
     pub command: String,
     /// At which states the model is examined before it is printed; not at all when `None`.
     pub evidence: Option<Sampling>,
+    /// Names of [`PASSES`](crate::passes::PASSES) and of [`STEPS`](crate::pack::STEPS) that do not run; none unless one wants to
+    /// see what they are worth. Without `bake` or `expand` nothing is printed that could be compiled.
+    pub without: Vec<String>,
 }
 
 /// A generated file and how it came about.
@@ -104,7 +107,7 @@ pub fn generate(
 ) -> Result<Generated, GenerateError> {
     let program = &file.program;
     let mut stages = Stages::start();
-    let functions = optimise(program, numbers, options.functions.as_deref())?;
+    let functions = optimise_without(program, numbers, options.functions.as_deref(), &options.without)?;
     stages.end("optimise");
     let examine = |sampling: Sampling| evidence::gather(program, numbers, &functions, sampling);
     let evidence = options.evidence.map(examine).transpose()?;
@@ -182,8 +185,21 @@ pub fn optimise(
     numbers: &Numbers<'_>,
     names: Option<&[String]>,
 ) -> Result<Vec<GeneratedFunction>, GenerateError> {
+    optimise_without(program, numbers, names, &[])
+}
+
+/// The same without some passes, see [`Options::without`].
+///
+/// # Errors
+/// See [`GenerateError`].
+pub fn optimise_without(
+    program: &Program,
+    numbers: &Numbers<'_>,
+    names: Option<&[String]>,
+    without: &[String],
+) -> Result<Vec<GeneratedFunction>, GenerateError> {
     let chosen = choose(program, names)?;
-    let context = context(program, numbers)?;
+    let context = Context { left_out: without.to_vec(), ..context(program, numbers)? };
     // Twice the work for functions in lanes; the number of steps is as good a guess as any before they are flattened.
     let in_lanes = |function: &Function| IN_LANES.contains(&function.name.as_str());
     let size = |function: &Function| function.steps.len() * (1 + usize::from(in_lanes(function)));
@@ -279,7 +295,8 @@ fn context(program: &Program, numbers: &Numbers<'_>) -> Result<Context, Generate
     for symbol in numbers.run_time_parameters(program)? {
         parameters.remove(&symbol.name);
     }
-    Ok(Context { parameters, states: sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)? })
+    let states = sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)?;
+    Ok(Context { parameters, states, ..Context::default() })
 }
 
 fn source(file: &GraphFile) -> Source {

@@ -39,6 +39,7 @@ pub use build_script::{Build, BuildError};
 pub use error::GenerateError;
 pub use generate::{
     Generated, GeneratedFunction, IN_LANES, MOST_GROWTH, Options, generate, kernels, optimise,
+    optimise_without,
 };
 pub use graph_file::{GraphFile, sha256};
 pub use numbers::Numbers;

@@ -85,7 +85,8 @@ fn general_systems_are_solved_in_the_order_that_states_show() {
         };
         let states: Vec<Environment> = (0..8).map(|_| draw()).collect();
         let graph = system(n, SolveKind::General, &fixed);
-        let context = Context { parameters: Environment::new(), states: states.clone() };
+        let context =
+            Context { parameters: Environment::new(), states: states.clone(), ..Context::default() };
         let mut orders: Vec<PivotOrder> = Vec::new();
         let expanded = (pass("expand").run)(&graph, &context, &mut orders);
         assert!(expanded.solves.is_empty());
@@ -144,7 +145,7 @@ fn singular_states_show_as_infinite_growth() {
     for singular in [[1.0, 2.0, 2.0, 4.0], [0.0, 0.0, 1.0, 2.0], [f64::NAN, 1.0, 1.0, 2.0]] {
         let sound = state(vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 1.0]);
         let states = vec![sound, state(singular.into(), vec![1.0, 1.0])];
-        let context = Context { parameters: Environment::new(), states };
+        let context = Context { parameters: Environment::new(), states, ..Context::default() };
         let mut orders = Vec::new();
         (pass("expand").run)(&graph, &context, &mut orders);
         assert_eq!((orders[0].growth, orders[0].states), (f64::INFINITY, 2), "{singular:?}");

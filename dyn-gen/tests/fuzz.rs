@@ -138,8 +138,11 @@ fn damaged_graph_files_are_refused_or_work() {
                 program.evaluate(function, &program.sample).expect("a checked program has its sample");
             assert!(function.outputs.iter().all(|output| known.contains_key(output)));
             let graph = program.flatten(function);
-            let context =
-                Context { parameters: program.sample.clone(), states: vec![program.sample.clone()] };
+            let context = Context {
+                parameters: program.sample.clone(),
+                states: vec![program.sample.clone()],
+                ..Context::default()
+            };
             let (graph, _) = run_passes(&graph, &context);
             graph.evaluate(&program.sample).expect("passes need no more inputs than the function");
         }

@@ -18,6 +18,7 @@ fn options(functions: &[&str]) -> Options {
         functions: Some(functions.iter().map(|name| (*name).to_owned()).collect()),
         command: "cargo test\nfn injected() {}".into(),
         evidence: None,
+        without: Vec::new(),
     }
 }
 

@@ -10,7 +10,8 @@ use expect_test::{Expect, expect};
 
 fn check(name: &str, before: &str, after: Expect) {
     let parameters = Environment::from([("p".to_owned(), vec![3.0])]);
-    let graph = run(pass(name), &parse(before), &Context { parameters, states: Vec::new() });
+    let graph =
+        run(pass(name), &parse(before), &Context { parameters, states: Vec::new(), ..Context::default() });
     after.assert_eq(&print(&graph));
 }
 

@@ -16,8 +16,8 @@ fn passes_keep_the_committed_functions() {
     // Other states than those from which the pivot order is chosen.
     let compared_at = sampled_states(&program, &platform, &STATES, 8).unwrap();
     let contexts = [
-        Context { parameters: parameters.clone(), states: states.clone() },
-        Context { parameters: Environment::new(), states: states.clone() },
+        Context { parameters: parameters.clone(), states: states.clone(), ..Context::default() },
+        Context { parameters: Environment::new(), states: states.clone(), ..Context::default() },
     ];
     for (function, context) in
         program.functions.iter().flat_map(|f| contexts.iter().map(move |context| (f, context)))
@@ -86,8 +86,10 @@ fn the_pivot_order_of_the_default_platform_hardly_grows() {
     let parameters = common::parameters(&program, &platform);
     let states = sampled_states(&program, &platform, &STATES, 1).unwrap();
     let flat = program.flatten(program.function("inverse_dynamics").unwrap());
-    let (graph, reports) =
-        run_passes(&flat, &Context { parameters: parameters.clone(), states: states.clone() });
+    let (graph, reports) = run_passes(
+        &flat,
+        &Context { parameters: parameters.clone(), states: states.clone(), ..Context::default() },
+    );
     assert!(graph.solves.is_empty());
     let orders = reports.iter().flat_map(|report| &report.pivot_orders).collect::<Vec<_>>();
     let [order] = orders[..] else { panic!("one general solve, got {orders:?}") };
@@ -121,7 +123,8 @@ fn a_general_solve_that_depends_on_parameters_is_left_to_run_time() {
     let platform = common::platform();
     let states = sampled_states(&program, &platform, &STATES, 1).unwrap();
     let graph = program.flatten(program.function("inverse_dynamics").unwrap());
-    let (graph, _) = run_passes(&graph, &Context { parameters: Environment::new(), states });
+    let (graph, _) =
+        run_passes(&graph, &Context { parameters: Environment::new(), states, ..Context::default() });
     assert_eq!(graph.operation_count().solves, 1);
 }
 

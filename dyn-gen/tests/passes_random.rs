@@ -39,7 +39,7 @@ fn exact_passes_keep_every_bit_of_random_graphs() {
     let mut compared = 0;
     for seed in 0..3000 {
         let (original, inputs, parameters) = random_case(seed);
-        let context = Context { parameters, states: Vec::new() };
+        let context = Context { parameters, states: Vec::new(), ..Context::default() };
         let mut graph = original.clone();
         for pass in PASSES.iter().filter(|pass| pass.exactness == Exactness::Exact) {
             let after = run(pass, &graph, &context);
@@ -67,7 +67,7 @@ fn rounding_passes_stay_within_the_error_bounds_of_random_graphs() {
     let mut compared = 0;
     for seed in 0..3000 {
         let (original, inputs, parameters) = random_case(seed);
-        let context = Context { parameters, states: Vec::new() };
+        let context = Context { parameters, states: Vec::new(), ..Context::default() };
         let mut graph = run(pass("share"), &run(pass("bake"), &original, &context), &context);
         for pass in PASSES.iter().filter(|pass| pass.exactness == Exactness::Rounding) {
             let after = run(pass, &graph, &context);
@@ -99,7 +99,7 @@ fn rounding_passes_stay_within_the_error_bounds_of_random_graphs() {
 fn running_a_pass_twice_changes_nothing_more() {
     for seed in 0..500 {
         let (mut graph, _, parameters) = random_case(seed);
-        let context = Context { parameters, states: Vec::new() };
+        let context = Context { parameters, states: Vec::new(), ..Context::default() };
         for pass in &PASSES {
             let once = run(pass, &graph, &context);
             let twice = run(pass, &once, &context);
@@ -114,7 +114,8 @@ fn running_a_pass_twice_changes_nothing_more() {
 fn no_pass_adds_operations_but_expand_and_invert() {
     for seed in 0..500 {
         let (graph, _, parameters) = random_case(seed);
-        for report in run_passes(&graph, &Context { parameters, states: Vec::new() }).1 {
+        for report in run_passes(&graph, &Context { parameters, states: Vec::new(), ..Context::default() }).1
+        {
             let may_add = report.name == "expand" || report.name == "invert";
             assert!(
                 may_add || report.after.total() <= report.before.total(),

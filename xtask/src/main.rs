@@ -3,6 +3,7 @@
 mod bare;
 mod bench;
 mod contract;
+mod passes;
 mod runner;
 mod steps;
 #[cfg(test)]
@@ -51,6 +52,11 @@ enum Task {
     /// left out), compiles everything for this very processor, checks that all agree, measures, and prints the table of
     /// ratios, which it writes as JSON and as a plot too. Close other programs first.
     Bench(bench::Options),
+    /// Measure what each pass of the generator is worth: models without it, models by it alone
+    ///
+    /// Makes some thirty models of one platform, compiles them into one program for this very processor, times all of them turn by
+    /// turn and prints operations and times as multiples of the complete pipeline's. Some minutes, nearly all of them compilation.
+    Passes(passes::Options),
     /// Recompute the test vectors of the multibody engines and compare with the committed ones (long)
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
@@ -87,6 +93,7 @@ fn main() -> ExitCode {
         Task::Run(selection) => perform("run", RUN, &selection),
         Task::Test { selection, bare } => fetched(bare).and_then(|()| perform("test", TEST, &selection)),
         Task::Bench(options) => bench::bench(&options),
+        Task::Passes(options) => passes::passes(&options),
         Task::Vectors(options) => vectors::compare_or_write(&options),
         Task::Contract => contract::check(),
         Task::Bare(options) => bare::bare(&options),

@@ -1,10 +1,9 @@
-//! Prints the times and ratios that a benchmark left behind, and writes them as JSON and as a plot.
+//! Prints the times and ratios that a benchmark left behind, and writes them as JSON, as a plot and in Markdown.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use dyn_benches::ratio_plot;
 use dyn_benches::ratios::summarise;
 use dyn_benches::results::results_folder;
 
@@ -17,7 +16,7 @@ struct Arguments {
     /// Criterion's folder, if it is not in cargo's target folder
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
-    /// Write `ratios.json` and `ratios.svg` into this folder too
+    /// Write `ratios.json`, `ratios.svg` and `table.md` into this folder too
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
 }
@@ -37,19 +36,6 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<String, String> {
     let summary = summarise(&arguments.results.clone().unwrap_or_else(results_folder))?;
-    let json = serde_json::to_string_pretty(&summary).map_err(|error| error.to_string())? + "\n";
-    let mut text = if arguments.json { json.clone() } else { summary.text() };
-    if let Some(folder) = &arguments.write {
-        let [data, plot] = ["ratios.json", "ratios.svg"].map(|name| folder.join(name));
-        std::fs::write(&data, json).map_err(|error| refusal(&data, &error))?;
-        ratio_plot::write(&plot, &summary).map_err(|error| refusal(&plot, &*error))?;
-        if !arguments.json {
-            text += &format!("\nwritten: {}\nwritten: {}\n", data.display(), plot.display());
-        }
-    }
-    Ok(text)
-}
-
-fn refusal(path: &Path, reason: &dyn std::error::Error) -> String {
-    format!("{}: {reason}", path.display())
+    let written = arguments.write.as_deref().map(|folder| summary.write(folder)).transpose()?;
+    if arguments.json { summary.json() } else { Ok(summary.text() + &written.unwrap_or_default()) }
 }

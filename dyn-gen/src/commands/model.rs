@@ -77,6 +77,7 @@ impl ModelArguments {
             scalars: self.scalar.clone(),
             functions: self.functions.clone(),
             evidence: (!self.no_evidence).then_some(Sampling { states: self.states, seed: self.seed }),
+            without: Vec::new(),
         };
         Ok(generate(graph, &Numbers::with_run_time(platform, &self.runtime), &options)?)
     }

@@ -95,6 +95,7 @@ fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
             functions: None,
             command: COMMAND.into(),
             evidence: numbers.platform().map(|_| Sampling::default()),
+            without: Vec::new(),
         };
         Ok((name.to_owned(), generate(graph, numbers, &options)?.source))
     };

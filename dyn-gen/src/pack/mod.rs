@@ -35,14 +35,26 @@ pub struct Packed {
     pub partition: Partition,
 }
 
+/// Steps of [`pack`] that a function in lanes can do without.
+pub const STEPS: [&str; 3] = ["partition", "sums", "order"];
+
 /// A flattened function of `leg_count` legs in lanes, its parameters baked as `context` says; `groups` as
 /// [`Program::flatten_with_groups`](crate::graph::Program::flatten_with_groups) gives them.
 pub fn pack(graph: &Graph, groups: Vec<Group>, leg_count: usize, context: &Context) -> Packed {
-    let partition = partition::choose(graph, context, leg_count);
+    let partition = if context.runs("partition") {
+        partition::choose(graph, context, leg_count)
+    } else {
+        Partition::in_order(leg_count)
+    };
     let (graph, groups) = blocks::expand(graph, groups, &partition);
-    let (graph, groups) = sums::regroup(&graph, groups, context, &partition);
+    let (graph, groups) = if context.runs("sums") {
+        sums::regroup(&graph, groups, context, &partition)
+    } else {
+        (graph, groups)
+    };
     let graph = superword::superword(&graph, &groups, context, &partition);
-    let graph = order::order(&run_passes_in_lanes(&graph, context));
+    let graph = run_passes_in_lanes(&graph, context);
+    let graph = if context.runs("order") { order::order(&graph) } else { graph };
     Packed { graph, partition }
 }
 

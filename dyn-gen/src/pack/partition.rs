@@ -15,10 +15,17 @@ pub struct Partition {
     pub states: usize,
 }
 
+impl Partition {
+    /// The first legs beside each other, then the others; chosen by nothing.
+    pub fn in_order(legs: usize) -> Self {
+        Self { legs: (0..legs).collect(), growth: 0.0, states: 0 }
+    }
+}
+
 /// The partition with the least growth; the legs in order if there is nothing to choose by: no system, no states, or a matrix
 /// that depends on parameters at run time.
 pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
-    let in_order = Partition { legs: (0..legs).collect(), growth: 0.0, states: 0 };
+    let in_order = Partition::in_order(legs);
     let system = graph.solves.iter().find(|solve| solve.kind == SolveKind::General);
     let Some(solve) = system.filter(|solve| solve.right_hand_side.len() == 6 && legs == 6) else {
         return in_order;

@@ -48,6 +48,15 @@ pub struct Context {
     pub parameters: Environment,
     /// States of the mechanism over its workspace, every state input of the graph, from which pivot orders are chosen.
     pub states: Vec<Environment>,
+    /// Names of [`PASSES`] and of [`STEPS`](crate::pack::STEPS) that do not run, so that one can see what they are worth.
+    pub left_out: Vec<String>,
+}
+
+impl Context {
+    /// Whether a pass or a step of packing shall run.
+    pub fn runs(&self, name: &str) -> bool {
+        self.left_out.iter().all(|left_out| left_out != name)
+    }
 }
 
 /// A row of [`PASSES`].
@@ -173,7 +182,7 @@ fn run<'a>(
     let mut graph = graph.clone();
     let mut before = graph.operation_count();
     let mut reports = Vec::with_capacity(PASSES.len());
-    for pass in passes {
+    for pass in passes.filter(|pass| context.runs(pass.name)) {
         let mut pivot_orders = Vec::new();
         graph = (pass.run)(&graph, context, &mut pivot_orders);
         let after = graph.operation_count();

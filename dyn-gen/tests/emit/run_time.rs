@@ -45,6 +45,7 @@ fn compiled_with_numbers_at_run_time_is_the_baked_model() {
             functions: Some(functions.clone()),
             command: "cargo test".into(),
             evidence: None,
+            without: Vec::new(),
         };
         let numbers = Numbers::with_run_time(&platform, names.iter().copied());
         let generated = generate(&file, &numbers, &options).unwrap();

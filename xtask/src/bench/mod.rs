@@ -66,6 +66,7 @@ pub fn bench(options: &Options) -> Result<(), Failure> {
     let mut measure = bench.cargo("native");
     measure.args(["bench", "--package", "dyn-benches", "--features", "peers", "--bench", "dynamics"]);
     measure.env("DYN_PEERS", &linked).env("CRITERION_HOME", bench.results());
+    measure.env("DYN_BENCHES_WRITE", &bench.folder);
     if let Some(exact) = &exact {
         measure.env("DYN_EXACT", exact);
     }
@@ -74,22 +75,8 @@ pub fn bench(options: &Options) -> Result<(), Failure> {
     }
     succeed(&mut measure)?;
 
-    let mut ratios = bench.cargo("native");
-    ratios.args([
-        "run",
-        "--release",
-        "--quiet",
-        "--package",
-        "dyn-benches",
-        "--features",
-        "peers",
-        "--bin",
-        "ratios",
-        "--",
-    ]);
-    ratios.env("DYN_PEERS", &linked).arg("--results").arg(bench.results()).arg("--write").arg(&bench.folder);
-    succeed(&mut ratios)?;
-    if let Some(listing) = listing::text(&bench.target.join("release"), &bench.model(), &linked) {
+    let pinocchio = bench.folder.with_file_name(peers::PINOCCHIO);
+    if let Some(listing) = listing::text(&bench.target.join("release"), &bench.model(), &linked, &pinocchio) {
         println!("\n{listing}");
     }
     if !options.no_counts {

@@ -28,6 +28,9 @@ const PINOCCHIO_MACROS: [&str; 5] = [
 /// Where Debian's package libeigen3-dev puts its headers.
 const EIGEN: &str = "/usr/include/eigen3";
 
+/// Pinocchio's object, beside the folders of the platforms.
+pub const PINOCCHIO: &str = "pinocchio_peer.o";
+
 /// A row of the index that `python -m peers` writes: function, implementation, way, symbol.
 struct Source {
     function: String,
@@ -46,7 +49,7 @@ pub fn prepare(inputs: &Path, folder: &Path, processor: &str) -> Result<PathBuf,
         Ok(sources) => table.peers = compile_casadi(inputs, folder, processor, &sources)?,
         Err(failure) => println!("absent: casadi_c_same, casadi_c_naive: {}", one_line(&failure)),
     }
-    match pinocchio(folder) {
+    match pinocchio(&inputs.with_file_name(PINOCCHIO)) {
         Ok(object) => table.pinocchio = Some(object),
         Err(reason) => println!("absent: pinocchio: {reason}"),
     }
@@ -54,7 +57,11 @@ pub fn prepare(inputs: &Path, folder: &Path, processor: &str) -> Result<PathBuf,
     let _ = fs::remove_file(&library);
     succeed(Command::new("ar").arg("crs").arg(&library).args(table.objects()))?;
     let path = folder.join("peers.rs");
-    fs::write(&path, table.text()).map_err(|error| unusable(&path, &error))?;
+    // A table that is written again is compiled again, and everything that is measured with it.
+    let text = table.text();
+    if fs::read_to_string(&path).ok().as_ref() != Some(&text) {
+        fs::write(&path, text).map_err(|error| unusable(&path, &error))?;
+    }
     Ok(folder.to_owned())
 }
 
@@ -85,8 +92,27 @@ fn casadi_sources(inputs: &Path) -> Result<Vec<Source>, Failure> {
 
 /// A compiler to be run.
 struct Job {
+    source: PathBuf,
     peer: Entry,
     command: Command,
+}
+
+impl Job {
+    /// Whether an earlier run compiled it and its source has not changed since.
+    fn is_done(&self) -> bool {
+        seconds_of(&self.peer.object).is_file() && is_younger(&self.peer.object, &self.source)
+    }
+}
+
+/// Where the time is kept that an object took to compile.
+pub fn seconds_of(object: &Path) -> PathBuf {
+    object.with_extension("seconds")
+}
+
+/// Whether both are there and `object` was written later.
+fn is_younger(object: &Path, source: &Path) -> bool {
+    let written = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
+    written(object).is_some_and(|object| written(source).is_some_and(|source| source < object))
 }
 
 /// Every source by every compiler with all flags, as many at once as there are processors.
@@ -106,15 +132,18 @@ fn compile_casadi(
             jobs.extend(LIBERTIES.map(|liberty| job(inputs, folder, processor, source, compiler, liberty)));
         }
     }
-    println!("compiling {} variants of CasADi's C", jobs.len());
+    let (kept, jobs): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(Job::is_done);
+    println!("compiling {} variants of CasADi's C, {} are there", jobs.len(), kept.len());
     let queue = Mutex::new(jobs.into_iter());
     let next = || queue.lock().ok()?.next();
     let work = || {
         let mut done = Vec::new();
-        while let Some(Job { mut peer, mut command }) = next() {
+        while let Some(Job { peer, mut command, .. }) = next() {
             let started = Instant::now();
             succeed(&mut command)?;
-            peer.seconds = started.elapsed().as_secs_f64();
+            let path = seconds_of(&peer.object);
+            let seconds = format!("{:.2}", started.elapsed().as_secs_f64());
+            fs::write(&path, seconds).map_err(|error| unusable(&path, &error))?;
             done.push(peer);
         }
         Ok(done)
@@ -125,7 +154,7 @@ fn compile_casadi(
         let died = |_| Err(Failure::new("a thread that compiles peers died", ""));
         workers.into_iter().map(|worker| worker.join().unwrap_or_else(died)).collect()
     });
-    let mut peers = Vec::new();
+    let mut peers: Vec<Entry> = kept.into_iter().map(|job| job.peer).collect();
     for result in results {
         peers.extend(result?);
     }
@@ -147,7 +176,8 @@ fn job(
     command.args(["-O3", &format!("-march={processor}"), "-c"]);
     command.args(Some(liberty).filter(|flag| !flag.is_empty()));
     command.args(["-DCASADI_SYMBOL_EXPORT=static", &format!("-DPEER={symbol}")]);
-    command.arg(inputs.join("c").join(&source.symbol).with_extension("c")).arg("-o").arg(&object);
+    let text = inputs.join("c").join(&source.symbol).with_extension("c");
+    command.arg(&text).arg("-o").arg(&object);
     let flags = format!("-O3 -march={processor} {liberty}");
     let peer = Entry {
         function: source.function.clone(),
@@ -155,20 +185,18 @@ fn job(
         variant: format!("{}, {compiler} {}", source.way, flags.trim_end()),
         symbol,
         object,
-        seconds: 0.0,
     };
-    Job { peer, command }
+    Job { source: text, peer, command }
 }
 
-/// Pinocchio's part, compiled once: a minute or two, so an object younger than its source is kept. Or why there is none.
+/// Pinocchio's part, compiled once for all platforms: a minute or two, so an object younger than its source is kept. Or why
+/// there is none.
 ///
 /// From headers alone, for any x86-64: instructions of the very processor make it slower.
-fn pinocchio(folder: &Path) -> Result<PathBuf, String> {
+fn pinocchio(object: &Path) -> Result<PathBuf, String> {
     let source = workspace::root().join("benches/peers/pinocchio_peer.cpp");
-    let object = folder.with_file_name("pinocchio_peer.o");
-    let written = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
-    if written(&object).is_some_and(|object| written(&source).is_some_and(|source| source < object)) {
-        return Ok(object);
+    if is_younger(object, &source) {
+        return Ok(object.to_owned());
     }
     let compilers = COMPILERS.iter().rev().map(|(_, compiler, _)| *compiler);
     let compiler = compilers.into_iter().find(|&compiler| is_installed(compiler)).ok_or("no C++ compiler")?;
@@ -181,9 +209,9 @@ fn pinocchio(folder: &Path) -> Result<PathBuf, String> {
     println!("compiling Pinocchio's constrained dynamics with {compiler} (a minute or two)");
     let mut compile = Command::new(compiler);
     compile.args(["-std=c++17", "-O3", "-w", "-c"]).args(PINOCCHIO_MACROS);
-    compile.arg("-I").arg(headers).args(["-I", EIGEN]).arg(source).arg("-o").arg(&object);
+    compile.arg("-I").arg(headers).args(["-I", EIGEN]).arg(source).arg("-o").arg(object);
     succeed(&mut compile).map_err(|failure| one_line(&failure))?;
-    Ok(object)
+    Ok(object.to_owned())
 }
 
 /// `lib/python3.*/site-packages/cmeel.prefix/include` of an environment.
@@ -206,8 +234,6 @@ struct Entry {
     variant: String,
     symbol: String,
     object: PathBuf,
-    /// What it took to compile.
-    seconds: f64,
 }
 
 /// What is in the library, and the tables of `benches/src/peers.rs`.
@@ -232,11 +258,11 @@ impl Table {
             text += PINOCCHIO_ENTRIES;
         }
         text += "}\nstatic PEERS: &[Peer] = &[\n";
-        for Entry { function, implementation, variant, symbol, seconds, .. } in &self.peers {
+        for Entry { function, implementation, variant, symbol, .. } in &self.peers {
             let _ = writeln!(
                 text,
-                "    // compiled in {seconds:.2} s\n    Peer {{ function: {function:?}, implementation: \
-                 {implementation:?}, variant: {variant:?}, entry: {symbol} }},"
+                "    Peer {{ function: {function:?}, implementation: {implementation:?}, variant: {variant:?}, \
+                 entry: {symbol} }},"
             );
         }
         text += "];\n";
@@ -276,7 +302,6 @@ mod tests {
             variant: "gcc -O3".into(),
             symbol: "entry_1".into(),
             object: "entry_1.o".into(),
-            seconds: 1.5,
         });
         table.pinocchio = Some("pinocchio.o".into());
         assert_eq!(table.objects().count(), 2);

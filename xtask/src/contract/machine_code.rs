@@ -69,9 +69,39 @@ impl MachineCode {
         self.functions.keys().map(String::as_str)
     }
 
-    /// Name, bytes of code and bytes of its own frame of every function.
-    pub fn sizes(&self) -> impl Iterator<Item = (&str, u64, u64)> {
-        self.functions.iter().map(|(name, function)| (name.as_str(), function.size, function.frame))
+    /// Bytes of code of a function and of everything that it calls and `counted` says to count, and the bytes of stack along the
+    /// deepest chain of these calls; `None` if the function is not there or can call itself.
+    pub fn footprint(&self, function: &str, counted: impl Fn(&str) -> bool) -> Option<(u64, u64)> {
+        let inside = |name: &String| self.functions.contains_key(name) && counted(name);
+        let (mut code, mut waiting) = (0, vec![function.to_owned()]);
+        let mut reached: BTreeSet<String> = BTreeSet::from([function.to_owned()]);
+        while let Some(name) = waiting.pop() {
+            let own = self.functions.get(&name)?;
+            code += own.size;
+            let callees = own.instructions.iter().filter_map(|instruction| instruction.callee.as_ref());
+            for callee in callees.filter(|&name| inside(name)) {
+                if reached.insert(callee.clone()) {
+                    waiting.push(callee.clone());
+                }
+            }
+        }
+        Some((code, self.deepest(function, &inside, &mut Vec::new())?))
+    }
+
+    fn deepest(&self, name: &str, inside: &impl Fn(&String) -> bool, above: &mut Vec<String>) -> Option<u64> {
+        if above.iter().any(|caller| caller == name) {
+            return None;
+        }
+        let function = self.functions.get(name)?;
+        above.push(name.to_owned());
+        let callees = function.instructions.iter().filter_map(|instruction| instruction.callee.as_ref());
+        let callees: BTreeSet<&String> = callees.filter(|&name| inside(name)).collect();
+        let mut most = 0;
+        for callee in callees {
+            most = most.max(RETURN_ADDRESS + self.deepest(callee, inside, above)?);
+        }
+        above.pop();
+        Some(function.frame + most)
     }
 
     /// Names that `function` and what it calls call, inside the object or not.
@@ -321,6 +351,9 @@ mod tests {
         assert_eq!(code.worst("leaf"), Some(Worst { code: 11, stack: 40, instructions: 2 + 12 + 1 }));
         assert_eq!(code.worst("caller"), Some(Worst { code: 15, stack: 48, instructions: 3 + 15 + 3 }));
         assert_eq!(code.reached("caller").into_iter().collect::<Vec<_>>(), ["leaf", "memcpy"]);
+        assert_eq!(code.footprint("caller", |_| true), Some((15 + 11, 48)));
+        assert_eq!(code.footprint("caller", |name| name != "leaf"), Some((15, 0)));
+        assert_eq!(code.footprint("again", |_| true), None);
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod machine_code;
 use std::path::Path;
 use std::process::Command;
 
-use self::machine_code::MachineCode;
+pub use self::machine_code::MachineCode;
 use crate::runner::Failure;
 use crate::workspace::{cargo, root};
 
@@ -26,12 +26,10 @@ pub fn check() -> Result<(), Failure> {
     same_bits()
 }
 
-/// Name, bytes of code and bytes of its own frame of every function of an object, archive or program.
-pub fn sizes(object: &Path) -> Result<Vec<(String, u64, u64)>, Failure> {
-    let listing =
-        run(Command::new("objdump").args(["--disassemble", "--demangle", "--no-show-raw-insn"]).arg(object))?;
-    let code = MachineCode::read(&listing);
-    Ok(code.sizes().map(|(name, size, frame)| (name.to_owned(), size, frame)).collect())
+/// The machine code of an object or program, names as the linker has them.
+pub fn machine_code(object: &Path) -> Result<MachineCode, Failure> {
+    let arguments = ["--disassemble", "--reloc", "--no-show-raw-insn"];
+    run(Command::new("objdump").args(arguments).arg(object)).map(|listing| MachineCode::read(&listing))
 }
 
 /// Every call of the C library for every test vector, by all its models, gives the same bits whether it is compiled for debugging or for
@@ -56,9 +54,7 @@ fn same_bits() -> Result<(), Failure> {
 /// Nothing may reach a panic or itself but a control case, and that must be seen to.
 fn no_panic() -> Result<(), Failure> {
     let object = build()?;
-    let listing =
-        run(Command::new("objdump").args(["--disassemble", "--reloc", "--no-show-raw-insn"]).arg(&object))?;
-    let code = MachineCode::read(&listing);
+    let code = machine_code(&object)?;
     let control: Vec<String> = ways_to_panic(&code, CONTROL_CASE);
     if control.is_empty() {
         return Err(Failure::new(
