@@ -1,16 +1,21 @@
 """Evaluates the graph file's functions with Python floats: what the sample outputs in the file come from.
 
 It reads only the file's own rows, so it also proves that they say what CasADi derived (see the tests). Python floats
-round as IEEE 754 asks, operation by operation, so the outputs are the same on every machine.
+round as IEEE 754 asks, operation by operation, so the outputs are the same on every machine. Other numbers will do as well, such as
+`decimal.Decimal`: `number` makes one of a constant. It needs no package.
 """
 
 import math
 import operator
 
 
+def _sqrt(x):
+    return x.sqrt() if hasattr(x, "sqrt") else math.sqrt(x)
+
+
 _OPERATIONS = {
     "neg": operator.neg,
-    "sqrt": math.sqrt,
+    "sqrt": _sqrt,
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
@@ -18,12 +23,12 @@ _OPERATIONS = {
 }
 
 
-def evaluate_graph(graph: dict, arguments: list[list[float]]) -> dict[str, list[float]]:
+def evaluate_graph(graph: dict, arguments: list[list[float]], number=float) -> dict[str, list[float]]:
     """Outputs of one graph by name."""
     values: list[float] = []
     for operation, *operands in graph["nodes"]:
         if operation == "const":
-            values.append(operands[0])
+            values.append(number(operands[0]))
         elif operation == "input":
             values.append(arguments[operands[0]][operands[1]])
         else:
@@ -33,7 +38,7 @@ def evaluate_graph(graph: dict, arguments: list[list[float]]) -> dict[str, list[
 
 def dot(a, b) -> float:
     """a . b from first to last. The built-in sum rounds differently from Python 3.12 on."""
-    total = 0.0
+    total = 0
     for x, y in zip(a, b, strict=True):
         total += x * y
     return total
@@ -50,13 +55,13 @@ def solve(matrix: list[float], right_hand_side: list[float]) -> list[float]:
             factor = rows[row][k] / rows[k][k]
             for column in range(k, n + 1):
                 rows[row][column] -= factor * rows[k][column]
-    solution = [0.0] * n
+    solution = [None] * n
     for k in reversed(range(n)):
         solution[k] = (rows[k][n] - dot(rows[k][k + 1:n], solution[k + 1:])) / rows[k][k]
     return solution
 
 
-def evaluate(document: dict, function: dict, values: dict[str, list[float]]) -> dict[str, list[float]]:
+def evaluate(document: dict, function: dict, values: dict[str, list[float]], number=float) -> dict[str, list[float]]:
     """Outputs of a function by name, flat and row-major."""
     symbols = {symbol["name"]: symbol for symbol in document["symbols"]}
     graphs = {graph["name"]: graph for graph in document["graphs"]}
@@ -68,7 +73,7 @@ def evaluate(document: dict, function: dict, values: dict[str, list[float]]) -> 
             continue
         graph = graphs[step["call"]]
         if "over" not in step:
-            known.update(evaluate_graph(graph, [known[name] for name in graph["inputs"]]))
+            known.update(evaluate_graph(graph, [known[name] for name in graph["inputs"]], number))
             continue
         results = []
         for leg in range(legs):
@@ -76,7 +81,7 @@ def evaluate(document: dict, function: dict, values: dict[str, list[float]]) -> 
             for name in graph["inputs"]:
                 size = len(known[name]) // legs if symbols[name]["per_leg"] else None
                 arguments.append(known[name] if size is None else known[name][leg * size:(leg + 1) * size])
-            results.append(evaluate_graph(graph, arguments))
+            results.append(evaluate_graph(graph, arguments, number))
         for output in graph["outputs"]:
             name = output["symbol"]
             known[name] = [value for result in results for value in result[name]]

@@ -152,10 +152,11 @@ impl Bench {
         let path = self.folder.join("exact.json");
         let made =
             workspace::environment("derivation", "codegen/requirements.lock").and_then(|environment| {
+                let paths = std::env::join_paths(["codegen", "benches"]).unwrap_or_default();
                 let mut python = environment.command();
                 python
                     .current_dir(workspace::root())
-                    .env("PYTHONPATH", "benches")
+                    .env("PYTHONPATH", paths)
                     .args(["-m", "peers.exact"]);
                 python
                     .args(["--graph", "codegen/graphs/uhp.json", "--vectors"])
