@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 1087babaf0efcf9ec5ffec7d20a0775def57d891f82a73a39400231c1444de84
-// graph     ups.json, sha256 057ec0109c49a9a5d7588a1896139cdc8b92b6b4f0a15fa41a9183293bbe7885
+// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
+// graph     ups.json, sha256 d04f97c5acf1e5f8b40ca4147ca7e049f8ffba79a2b5fda1c98c53b255edf651
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 1087babaf0efcf9ec5ffec7d20a0775def57d891f82a73a39400231c1444de84
+// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //

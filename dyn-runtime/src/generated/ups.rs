@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 057ec0109c49a9a5d7588a1896139cdc8b92b6b4f0a15fa41a9183293bbe7885
+// graph     ups.json, sha256 d04f97c5acf1e5f8b40ca4147ca7e049f8ffba79a2b5fda1c98c53b255edf651
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
