@@ -80,6 +80,7 @@ fn limited(folder: &Path, out: &Path) -> Result<String, Box<dyn Error>> {
         runtime: RuntimePath::new("::dyn_runtime")?,
         scalars: vec![Scalar::F64],
         functions: Some(vec!["rod_alignment".into()]),
+        without: Vec::new(),
         command: "cargo test -p dyn-tests".into(),
         evidence: None,
     };

@@ -174,7 +174,7 @@ impl AtRest {
         }
         // It is asked a hundred times for one pose on a ray: passes that keep every bit make it a third as long.
         let context = Context { parameters: parameters.clone(), states: Vec::new(), ..Context::default() };
-        let exact = PASSES.iter().filter(|pass| ["bake", "simplify", "share", "prune"].contains(&pass.name));
+        let exact = PASSES.iter().filter(|pass| ["bake", "simplify", "prune"].contains(&pass.name));
         let graph = exact.fold(graph, |graph, pass| (pass.run)(&graph, &context, &mut Vec::new()));
         let state = state_at(&Pose { position: [0.0; 3], rotation: [[0.0; 3]; 3] });
         let value = |symbol: &Symbol| {

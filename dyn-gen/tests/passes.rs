@@ -139,9 +139,9 @@ fn simplify_moves_signs_outwards() {
 }
 
 #[test]
-fn share_gives_differences_one_order() {
+fn opposite_differences_are_one_node() {
     check(
-        "share",
+        "invert",
         "a = (x - y) * z\nb = z + (y - x)\nc = (y - x) * (x - y)",
         expect![[r#"
         t3 = x - y

@@ -76,7 +76,7 @@ pub struct Pass {
 use Exactness::{Exact, Rounding};
 
 /// Every pass, in the order in which they run.
-pub const PASSES: [Pass; 10] = [
+pub const PASSES: [Pass; 9] = [
     Pass {
         name: "bake",
         exactness: Rounding,
@@ -90,13 +90,6 @@ pub const PASSES: [Pass; 10] = [
         after: "no operation has an operand that makes it trivial; negations stand only before roots, solves and outputs",
         in_lanes: false,
         run: |graph, _, _| simplify::simplify(graph),
-    },
-    Pass {
-        name: "share",
-        exactness: Exact,
-        after: "no two nodes are equal or opposite by their operands",
-        in_lanes: false,
-        run: |graph, _, _| share::share(graph),
     },
     Pass {
         name: "expand",

@@ -1,15 +1,10 @@
-//! Makes one node of values that differ only in sign.
+//! One node for values that differ only in sign: how passes that make many nodes make them.
 
-use super::rewrite::rewrite;
 use super::simplify::simplified;
-use crate::graph::{Builder, Graph, Node, NodeId, Op};
+use crate::graph::{Builder, Node, NodeId, Op};
 
-/// Gives every difference one order, so that x - y and y - x are the same node; the sign moves on to its users.
-pub fn share(graph: &Graph) -> Graph {
-    rewrite(graph, |builder, _, node| shared(builder, node))
-}
-
-/// [`simplified`], with differences in the order of their operands' ids.
+/// [`simplified`], with differences in the order of their operands' ids, so that x - y and y - x are the same node; the sign
+/// moves on to its users.
 pub fn shared(builder: &mut Builder, node: Node) -> NodeId {
     let simplified = simplified(builder, node);
     match builder.node(simplified) {

@@ -154,10 +154,7 @@ impl Bench {
             workspace::environment("derivation", "codegen/requirements.lock").and_then(|environment| {
                 let paths = std::env::join_paths(["codegen", "benches"]).unwrap_or_default();
                 let mut python = environment.command();
-                python
-                    .current_dir(workspace::root())
-                    .env("PYTHONPATH", paths)
-                    .args(["-m", "peers.exact"]);
+                python.current_dir(workspace::root()).env("PYTHONPATH", paths).args(["-m", "peers.exact"]);
                 python
                     .args(["--graph", "codegen/graphs/uhp.json", "--vectors"])
                     .arg(self.folder.join("vectors.json"));
