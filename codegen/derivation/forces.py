@@ -207,21 +207,22 @@ def commanded_forces(axial_reaction):
 
 
 @platform_stage
-def bias_from_wrench(
-    base_rotation, relative_rotation, inertia_force, inertia_moments, joint_moment, jacobian_row, net_axial_force,
-):
+def inertia_moment(relative_rotation, inertia_moments, joint_moment):
+    """moment of the inertia force about the platform origin."""
+    return {"inertia_moment": levers_cross(relative_rotation, inertia_moments) + joint_moment}
+
+
+@platform_stage
+def bias_from_wrench(base_rotation, inertia_force, inertia_moment, jacobian_row, net_axial_force):
     """bias in O: the wrench that holds the platform at constant speeds."""
     reflected = sum((row * force for row, force in zip(jacobian_row, net_axial_force, strict=True)), ca.SX.zeros(6))
     force = inertia_force - reflected[:3]
-    moment = levers_cross(relative_rotation, inertia_moments) + joint_moment - reflected[3:]
+    moment = inertia_moment - reflected[3:]
     return {"bias": ca.vertcat(base_rotation @ force, base_rotation @ moment)}
 
 
 @platform_stage
-def total_bias(
-    base_rotation, relative_rotation, inertia_force, inertia_moments, joint_moment, jacobian_dp, net_axial_force,
-):
+def total_bias(base_rotation, inertia_force, inertia_moment, jacobian_dp, net_axial_force):
     """bias in O on a base that accelerates."""
     reflected = sum((row * force for row, force in zip(jacobian_dp, net_axial_force, strict=True)), ca.SX.zeros(6))
-    moment = levers_cross(relative_rotation, inertia_moments) + joint_moment
-    return {"total_bias": ca.vertcat(base_rotation @ inertia_force, base_rotation @ moment) - reflected}
+    return {"total_bias": ca.vertcat(base_rotation @ inertia_force, base_rotation @ inertia_moment) - reflected}

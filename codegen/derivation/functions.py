@@ -107,7 +107,7 @@ def functions(leg) -> list[Function]:
             "bias", "velocity terms, gravity, springs and dampers without forming matrices", "(49)",
             ("bias",),
             (*gradient, *merged, *rates, motion.steady_base_field, motion.steady_platform_field, *leg_forces,
-             *wrench, forces.opposing_axial_force, forces.bias_from_wrench),
+             *wrench, forces.inertia_moment, forces.opposing_axial_force, forces.bias_from_wrench),
         ),
         Function(
             "equation_of_motion", "the whole of (49) in one call", "(49)",
@@ -131,7 +131,7 @@ def functions(leg) -> list[Function]:
             "control", "what a controller by inverse dynamics needs, in one call", "(18), (30), (32), (49)",
             ("actuator_length", "actuator_velocity", "jacobian_dp", "mass_matrix_p", "total_bias", "inverse_dynamics"),
             (*mass, matrices.mass_matrix_p, *rates, motion.base_acceleration_field, motion.steady_platform_field, *acceleration,
-             leg.leg_inertia_forces, forces.passive_axial_force, *wrench, forces.opposing_axial_force,
+             leg.leg_inertia_forces, forces.passive_axial_force, *wrench, forces.inertia_moment, forces.opposing_axial_force,
              forces.total_bias, forces.commanded_wrench, forces.wrench_map_in_o, AXIAL_REACTION, forces.commanded_forces),
         ),
         Function(

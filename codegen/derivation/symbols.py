@@ -115,6 +115,7 @@ DYNAMICS = table("intermediate", True, [
     ("inertia_force", (3,), "N", "B", "inertia force less weight, without the actuators' own shares"),
     ("inertia_moments", (3, 3), "N m", "B, P", "first moments by platform coordinate of the payload's inertia force"),
     ("joint_moment", (3,), "N m", "B", "moment of the legs' inertia at their joints about the platform origin"),
+    ("inertia_moment", (3,), "N m", "B", "moment of the inertia force about the platform origin"),
     ("velocity_error", (3,), "m/s", "B", "reference less actual velocity of the platform origin"),
     ("rate_error", (3,), "rad/s", "B", "reference less actual angular velocity of the platform"),
     ("error_field", (3, 3), "1/s^2", "P -> B", "what that adds to the acceleration per platform coordinate"),

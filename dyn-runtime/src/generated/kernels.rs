@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
-// graph     ups.json, sha256 d04f97c5acf1e5f8b40ca4147ca7e049f8ffba79a2b5fda1c98c53b255edf651
+// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
+// graph     ups.json, sha256 72397907c073aed1bf3e63df770aeecbe6a57ee55c0db96a4203977ba946cca3
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

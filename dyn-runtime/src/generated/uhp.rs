@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
+// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -18136,64 +18136,68 @@ pub fn bias<T: Scalar>(
     let t840 = t799 + (t793 + t796) + t839;
     let t841 = neg_mul_add(t78, t675, mul_add(t75, t676, t803));
     let t842 = t800 + (t794 + t797) + t841;
+    // moment of the inertia force about the platform origin
+    let t843 = mul_sub(t15, t834, t24 * t828);
+    let t844 = mul_sub(t12, t832, t21 * t826) + t843;
+    let t845 = mul_sub(t102, t755, t844 + mul_sub(t18, t836, t27 * t830));
+    let t846 = t838 + neg_mul_add(t105, t754, t845);
+    let t847 = mul_sub(t24, t822, t6 * t834);
+    let t848 = mul_sub(t21, t820, t3 * t832) + t847;
+    let t849 = mul_sub(t105, t753, t848 + mul_sub(t27, t824, t9 * t836));
+    let t850 = t840 + neg_mul_add(t99, t755, t849);
+    let t851 = mul_sub(t6, t828, t15 * t822);
+    let t852 = mul_sub(t3, t826, t12 * t820) + t851;
+    let t853 = mul_sub(t99, t754, t852 + mul_sub(t9, t830, t18 * t824));
+    let t854 = t842 + neg_mul_add(t102, t753, t853);
     // leg 1: force along the actuator that reaches the platform
-    let t843 = mul_add(t195, t543, neg_mul_add(t198, t555, t758));
-    let t844 = mul_add(parameters.mover_mass[0], t557, t843);
+    let t855 = mul_add(t195, t543, neg_mul_add(t198, t555, t758));
+    let t856 = mul_add(parameters.mover_mass[0], t557, t855);
     // leg 2: force along the actuator that reaches the platform
-    let t845 = mul_add(t201, t582, neg_mul_add(t204, t594, t761));
-    let t846 = mul_add(parameters.mover_mass[1], t596, t845);
+    let t857 = mul_add(t201, t582, neg_mul_add(t204, t594, t761));
+    let t858 = mul_add(parameters.mover_mass[1], t596, t857);
     // leg 3: force along the actuator that reaches the platform
-    let t847 = mul_add(t207, t621, neg_mul_add(t210, t633, t764));
-    let t848 = mul_add(parameters.mover_mass[2], t635, t847);
+    let t859 = mul_add(t207, t621, neg_mul_add(t210, t633, t764));
+    let t860 = mul_add(parameters.mover_mass[2], t635, t859);
     // leg 4: force along the actuator that reaches the platform
-    let t849 = mul_add(t213, t660, neg_mul_add(t216, t672, t767));
-    let t850 = mul_add(parameters.mover_mass[3], t674, t849);
+    let t861 = mul_add(t213, t660, neg_mul_add(t216, t672, t767));
+    let t862 = mul_add(parameters.mover_mass[3], t674, t861);
     // leg 5: force along the actuator that reaches the platform
-    let t851 = mul_add(t219, t699, neg_mul_add(t222, t711, t770));
-    let t852 = mul_add(parameters.mover_mass[4], t713, t851);
+    let t863 = mul_add(t219, t699, neg_mul_add(t222, t711, t770));
+    let t864 = mul_add(parameters.mover_mass[4], t713, t863);
     // leg 6: force along the actuator that reaches the platform
-    let t853 = mul_add(t225, t738, neg_mul_add(t228, t750, t773));
-    let t854 = mul_add(parameters.mover_mass[5], t752, t853);
+    let t865 = mul_add(t225, t738, neg_mul_add(t228, t750, t773));
+    let t866 = mul_add(parameters.mover_mass[5], t752, t865);
     // C_p v_p - C_b v_b + gravity, spring and damping force
-    let t855 = mul_add(t183, t848, mul_add(t177, t844, t180 * t846));
-    let t856 = mul_add(t189, t852, mul_add(t186, t850, t855));
-    let t857 = neg_mul_add(t192, t854, t818) - t856;
-    let t858 = mul_add(t181, t848, mul_add(t175, t844, t178 * t846));
-    let t859 = mul_add(t187, t852, mul_add(t184, t850, t858));
-    let t860 = neg_mul_add(t190, t854, t808) - t859;
-    let t861 = mul_add(t182, t848, mul_add(t176, t844, t179 * t846));
-    let t862 = mul_add(t188, t852, mul_add(t185, t850, t861));
-    let t863 = neg_mul_add(t191, t854, t813) - t862;
-    let t864 = mul_add(base_rotation[0][0], t860, base_rotation[0][1] * t863);
-    bias[0] = mul_add(base_rotation[0][2], t857, t864);
-    let t865 = mul_add(base_rotation[1][0], t860, base_rotation[1][1] * t863);
-    bias[1] = mul_add(base_rotation[1][2], t857, t865);
-    let t866 = mul_add(base_rotation[2][0], t860, base_rotation[2][1] * t863);
-    bias[2] = mul_add(base_rotation[2][2], t857, t866);
-    let t867 = mul_sub(t6, t828, t15 * t822);
-    let t868 = mul_sub(t3, t826, t12 * t820) + t867;
-    let t869 = mul_sub(t99, t754, t868 + mul_sub(t9, t830, t18 * t824));
-    let t870 = neg_mul_add(t791, t854, t842 + neg_mul_add(t102, t753, t869));
-    let t871 = mul_add(t782, t848, mul_add(t776, t844, t779 * t846));
-    let t872 = t870 - mul_add(t788, t852, mul_add(t785, t850, t871));
-    let t873 = mul_sub(t15, t834, t24 * t828);
-    let t874 = mul_sub(t12, t832, t21 * t826) + t873;
-    let t875 = mul_sub(t102, t755, t874 + mul_sub(t18, t836, t27 * t830));
-    let t876 = neg_mul_add(t789, t854, t838 + neg_mul_add(t105, t754, t875));
-    let t877 = mul_add(t780, t848, mul_add(t774, t844, t777 * t846));
-    let t878 = t876 - mul_add(t786, t852, mul_add(t783, t850, t877));
-    let t879 = mul_sub(t24, t822, t6 * t834);
-    let t880 = mul_sub(t21, t820, t3 * t832) + t879;
-    let t881 = mul_sub(t105, t753, t880 + mul_sub(t27, t824, t9 * t836));
-    let t882 = neg_mul_add(t790, t854, t840 + neg_mul_add(t99, t755, t881));
-    let t883 = mul_add(t781, t848, mul_add(t775, t844, t778 * t846));
-    let t884 = t882 - mul_add(t787, t852, mul_add(t784, t850, t883));
-    let t885 = mul_add(base_rotation[0][0], t878, base_rotation[0][1] * t884);
-    bias[3] = mul_add(base_rotation[0][2], t872, t885);
-    let t886 = mul_add(base_rotation[1][0], t878, base_rotation[1][1] * t884);
-    bias[4] = mul_add(base_rotation[1][2], t872, t886);
-    let t887 = mul_add(base_rotation[2][0], t878, base_rotation[2][1] * t884);
-    bias[5] = mul_add(base_rotation[2][2], t872, t887);
+    let t867 = mul_add(t183, t860, mul_add(t177, t856, t180 * t858));
+    let t868 = mul_add(t189, t864, mul_add(t186, t862, t867));
+    let t869 = neg_mul_add(t192, t866, t818) - t868;
+    let t870 = mul_add(t181, t860, mul_add(t175, t856, t178 * t858));
+    let t871 = mul_add(t187, t864, mul_add(t184, t862, t870));
+    let t872 = neg_mul_add(t190, t866, t808) - t871;
+    let t873 = mul_add(t182, t860, mul_add(t176, t856, t179 * t858));
+    let t874 = mul_add(t188, t864, mul_add(t185, t862, t873));
+    let t875 = neg_mul_add(t191, t866, t813) - t874;
+    let t876 = mul_add(base_rotation[0][0], t872, base_rotation[0][1] * t875);
+    bias[0] = mul_add(base_rotation[0][2], t869, t876);
+    let t877 = mul_add(base_rotation[1][0], t872, base_rotation[1][1] * t875);
+    bias[1] = mul_add(base_rotation[1][2], t869, t877);
+    let t878 = mul_add(base_rotation[2][0], t872, base_rotation[2][1] * t875);
+    bias[2] = mul_add(base_rotation[2][2], t869, t878);
+    let t879 = mul_add(t782, t860, mul_add(t776, t856, t779 * t858));
+    let t880 = mul_add(t788, t864, mul_add(t785, t862, t879));
+    let t881 = neg_mul_add(t791, t866, t854) - t880;
+    let t882 = mul_add(t780, t860, mul_add(t774, t856, t777 * t858));
+    let t883 = mul_add(t786, t864, mul_add(t783, t862, t882));
+    let t884 = neg_mul_add(t789, t866, t846) - t883;
+    let t885 = mul_add(t781, t860, mul_add(t775, t856, t778 * t858));
+    let t886 = mul_add(t787, t864, mul_add(t784, t862, t885));
+    let t887 = neg_mul_add(t790, t866, t850) - t886;
+    let t888 = mul_add(base_rotation[0][0], t884, base_rotation[0][1] * t887);
+    bias[3] = mul_add(base_rotation[0][2], t881, t888);
+    let t889 = mul_add(base_rotation[1][0], t884, base_rotation[1][1] * t887);
+    bias[4] = mul_add(base_rotation[1][2], t881, t889);
+    let t890 = mul_add(base_rotation[2][0], t884, base_rotation[2][1] * t887);
+    bias[5] = mul_add(base_rotation[2][2], t881, t890);
 }
 
 /// The whole of (49) in one call, equation (49).
@@ -24624,64 +24628,65 @@ pub fn control<T: Scalar>(
         let t1260 = t1219 + (t1213 + t1216) + t1259;
         let t1261 = neg_mul_add(t105, t1113, mul_add(t102, t1114, t1223));
         let t1262 = t1220 + (t1214 + t1217) + t1261;
+        // moment of the inertia force about the platform origin
+        let t1263 = mul_sub(t15, t1254, t24 * t1248);
+        let t1264 = mul_sub(t12, t1252, t21 * t1246) + t1263;
+        let t1265 = mul_add(t147, t1193, t1264 + mul_sub(t18, t1256, t27 * t1250));
+        let t1266 = t1258 + neg_mul_add(t150, t1192, t1265);
+        let t1267 = mul_sub(t24, t1242, t6 * t1254);
+        let t1268 = mul_sub(t21, t1240, t3 * t1252) + t1267;
+        let t1269 = mul_add(t150, t1191, t1268 + mul_sub(t27, t1244, t9 * t1256));
+        let t1270 = t1260 + neg_mul_add(t144, t1193, t1269);
+        let t1271 = mul_sub(t6, t1248, t15 * t1242);
+        let t1272 = mul_sub(t3, t1246, t12 * t1240) + t1271;
+        let t1273 = mul_add(t144, t1192, t1272 + mul_sub(t9, t1250, t18 * t1244));
+        let t1274 = t1262 + neg_mul_add(t147, t1191, t1273);
         // leg 1: force along the actuator that reaches the platform
-        let t1263 = mul_add(t303, t981, mul_sub(t306, t993, t1196));
-        let t1264 = mul_add(parameters.mover_mass[0], t995, t1263);
+        let t1275 = mul_add(t303, t981, mul_sub(t306, t993, t1196));
+        let t1276 = mul_add(parameters.mover_mass[0], t995, t1275);
         // leg 2: force along the actuator that reaches the platform
-        let t1265 = mul_add(t310, t1020, mul_sub(t313, t1032, t1199));
-        let t1266 = mul_add(parameters.mover_mass[1], t1034, t1265);
+        let t1277 = mul_add(t310, t1020, mul_sub(t313, t1032, t1199));
+        let t1278 = mul_add(parameters.mover_mass[1], t1034, t1277);
         // leg 3: force along the actuator that reaches the platform
-        let t1267 = mul_add(t317, t1059, mul_sub(t320, t1071, t1202));
-        let t1268 = mul_add(parameters.mover_mass[2], t1073, t1267);
+        let t1279 = mul_add(t317, t1059, mul_sub(t320, t1071, t1202));
+        let t1280 = mul_add(parameters.mover_mass[2], t1073, t1279);
         // leg 4: force along the actuator that reaches the platform
-        let t1269 = mul_add(t324, t1098, mul_sub(t327, t1110, t1205));
-        let t1270 = mul_add(parameters.mover_mass[3], t1112, t1269);
+        let t1281 = mul_add(t324, t1098, mul_sub(t327, t1110, t1205));
+        let t1282 = mul_add(parameters.mover_mass[3], t1112, t1281);
         // leg 5: force along the actuator that reaches the platform
-        let t1271 = mul_add(t331, t1137, mul_sub(t334, t1149, t1208));
-        let t1272 = mul_add(parameters.mover_mass[4], t1151, t1271);
+        let t1283 = mul_add(t331, t1137, mul_sub(t334, t1149, t1208));
+        let t1284 = mul_add(parameters.mover_mass[4], t1151, t1283);
         // leg 6: force along the actuator that reaches the platform
-        let t1273 = mul_add(t338, t1176, mul_sub(t341, t1188, t1211));
-        let t1274 = mul_add(parameters.mover_mass[5], t1190, t1273);
+        let t1285 = mul_add(t338, t1176, mul_sub(t341, t1188, t1211));
+        let t1286 = mul_add(parameters.mover_mass[5], t1190, t1285);
         // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-        let t1275 = mul_add(base_rotation[0][0], t1228, base_rotation[0][1] * t1233);
-        let t1276 = neg_mul_add(t278, t1274, mul_add(base_rotation[0][2], t1238, t1275));
-        let t1277 = mul_add(t260, t1268, mul_add(t248, t1264, t254 * t1266));
-        let t1278 = t1276 - mul_add(t272, t1272, mul_add(t266, t1270, t1277));
-        let t1279 = mul_add(base_rotation[1][0], t1228, base_rotation[1][1] * t1233);
-        let t1280 = neg_mul_add(t280, t1274, mul_add(base_rotation[1][2], t1238, t1279));
-        let t1281 = mul_add(t262, t1268, mul_add(t250, t1264, t256 * t1266));
-        let t1282 = t1280 - mul_add(t274, t1272, mul_add(t268, t1270, t1281));
-        let t1283 = mul_add(base_rotation[2][0], t1228, base_rotation[2][1] * t1233);
-        let t1284 = neg_mul_add(t282, t1274, mul_add(base_rotation[2][2], t1238, t1283));
-        let t1285 = mul_add(t264, t1268, mul_add(t252, t1264, t258 * t1266));
-        let t1286 = t1284 - mul_add(t276, t1272, mul_add(t270, t1270, t1285));
-        let t1287 = mul_sub(t6, t1248, t15 * t1242);
-        let t1288 = mul_sub(t3, t1246, t12 * t1240) + t1287;
-        let t1289 = mul_add(t144, t1192, t1288 + mul_sub(t9, t1250, t18 * t1244));
-        let t1290 = t1262 + neg_mul_add(t147, t1191, t1289);
-        let t1291 = mul_sub(t15, t1254, t24 * t1248);
-        let t1292 = mul_sub(t12, t1252, t21 * t1246) + t1291;
-        let t1293 = mul_add(t147, t1193, t1292 + mul_sub(t18, t1256, t27 * t1250));
-        let t1294 = t1258 + neg_mul_add(t150, t1192, t1293);
-        let t1295 = mul_sub(t24, t1242, t6 * t1254);
-        let t1296 = mul_sub(t21, t1240, t3 * t1252) + t1295;
-        let t1297 = mul_add(t150, t1191, t1296 + mul_sub(t27, t1244, t9 * t1256));
-        let t1298 = t1260 + neg_mul_add(t144, t1193, t1297);
-        let t1299 = mul_add(base_rotation[0][0], t1294, base_rotation[0][1] * t1298);
-        let t1300 = neg_mul_add(t298, t1274, mul_add(base_rotation[0][2], t1290, t1299));
-        let t1301 = mul_add(t289, t1268, mul_add(t283, t1264, t286 * t1266));
-        let t1302 = t1300 - mul_add(t295, t1272, mul_add(t292, t1270, t1301));
-        let t1303 = mul_add(base_rotation[1][0], t1294, base_rotation[1][1] * t1298);
-        let t1304 = neg_mul_add(t299, t1274, mul_add(base_rotation[1][2], t1290, t1303));
-        let t1305 = mul_add(t290, t1268, mul_add(t284, t1264, t287 * t1266));
-        let t1306 = t1304 - mul_add(t296, t1272, mul_add(t293, t1270, t1305));
-        let t1307 = mul_add(base_rotation[2][0], t1294, base_rotation[2][1] * t1298);
-        let t1308 = neg_mul_add(t300, t1274, mul_add(base_rotation[2][2], t1290, t1307));
-        let t1309 = mul_add(t291, t1268, mul_add(t285, t1264, t288 * t1266));
-        let t1310 = t1308 - mul_add(t297, t1272, mul_add(t294, t1270, t1309));
-        total_bias[0] = -t1278;
-        total_bias[1] = -t1282;
-        total_bias[2] = -t1286;
+        let t1287 = mul_add(base_rotation[0][0], t1228, base_rotation[0][1] * t1233);
+        let t1288 = neg_mul_add(t278, t1286, mul_add(base_rotation[0][2], t1238, t1287));
+        let t1289 = mul_add(t260, t1280, mul_add(t248, t1276, t254 * t1278));
+        let t1290 = t1288 - mul_add(t272, t1284, mul_add(t266, t1282, t1289));
+        let t1291 = mul_add(base_rotation[1][0], t1228, base_rotation[1][1] * t1233);
+        let t1292 = neg_mul_add(t280, t1286, mul_add(base_rotation[1][2], t1238, t1291));
+        let t1293 = mul_add(t262, t1280, mul_add(t250, t1276, t256 * t1278));
+        let t1294 = t1292 - mul_add(t274, t1284, mul_add(t268, t1282, t1293));
+        let t1295 = mul_add(base_rotation[2][0], t1228, base_rotation[2][1] * t1233);
+        let t1296 = neg_mul_add(t282, t1286, mul_add(base_rotation[2][2], t1238, t1295));
+        let t1297 = mul_add(t264, t1280, mul_add(t252, t1276, t258 * t1278));
+        let t1298 = t1296 - mul_add(t276, t1284, mul_add(t270, t1282, t1297));
+        let t1299 = mul_add(base_rotation[0][0], t1266, base_rotation[0][1] * t1270);
+        let t1300 = neg_mul_add(t298, t1286, mul_add(base_rotation[0][2], t1274, t1299));
+        let t1301 = mul_add(t289, t1280, mul_add(t283, t1276, t286 * t1278));
+        let t1302 = t1300 - mul_add(t295, t1284, mul_add(t292, t1282, t1301));
+        let t1303 = mul_add(base_rotation[1][0], t1266, base_rotation[1][1] * t1270);
+        let t1304 = neg_mul_add(t299, t1286, mul_add(base_rotation[1][2], t1274, t1303));
+        let t1305 = mul_add(t290, t1280, mul_add(t284, t1276, t287 * t1278));
+        let t1306 = t1304 - mul_add(t296, t1284, mul_add(t293, t1282, t1305));
+        let t1307 = mul_add(base_rotation[2][0], t1266, base_rotation[2][1] * t1270);
+        let t1308 = neg_mul_add(t300, t1286, mul_add(base_rotation[2][2], t1274, t1307));
+        let t1309 = mul_add(t291, t1280, mul_add(t285, t1276, t288 * t1278));
+        let t1310 = t1308 - mul_add(t297, t1284, mul_add(t294, t1282, t1309));
+        total_bias[0] = -t1290;
+        total_bias[1] = -t1294;
+        total_bias[2] = -t1298;
         total_bias[3] = -t1302;
         total_bias[4] = -t1306;
         total_bias[5] = -t1310;
@@ -24690,19 +24695,19 @@ pub fn control<T: Scalar>(
         let t1312 = mul_add(platform_acceleration[2], t570, t1311);
         let t1313 = neg_mul_add(platform_acceleration[3], t576, t1312);
         let t1314 = neg_mul_add(platform_acceleration[4], t681, t1313);
-        let t1315 = neg_mul_add(platform_acceleration[5], t684, t1314) - t1278;
+        let t1315 = neg_mul_add(platform_acceleration[5], t684, t1314) - t1290;
         let t1316 = t1315 - external_wrench[0];
         let t1317 = mul_add(platform_acceleration[0], t569, platform_acceleration[1] * t685);
         let t1318 = mul_add(platform_acceleration[2], t594, t1317);
         let t1319 = neg_mul_add(platform_acceleration[3], t686, t1318);
         let t1320 = mul_add(platform_acceleration[4], t614, t1319);
-        let t1321 = neg_mul_add(platform_acceleration[5], t689, t1320) - t1282;
+        let t1321 = neg_mul_add(platform_acceleration[5], t689, t1320) - t1294;
         let t1322 = t1321 - external_wrench[1];
         let t1323 = mul_add(platform_acceleration[0], t570, platform_acceleration[1] * t594);
         let t1324 = mul_add(platform_acceleration[2], t690, t1323);
         let t1325 = neg_mul_add(platform_acceleration[3], t691, t1324);
         let t1326 = neg_mul_add(platform_acceleration[4], t692, t1325);
-        let t1327 = neg_mul_add(platform_acceleration[5], t645, t1326) - t1286;
+        let t1327 = neg_mul_add(platform_acceleration[5], t645, t1326) - t1298;
         let t1328 = t1327 - external_wrench[2];
         let t1329 = platform_rotation[2][1] * parameters.payload_com[1];
         let t1330 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1329);
@@ -33567,34 +33572,35 @@ pub fn control_in_lanes<P: Triple>(
     let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     // angular velocity of the base
     let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t86 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t87 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
+    // constant and copied elements
+    let t86 =
+        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t87 = t86 / t70;
     // angular acceleration of the base
     let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
     // legs 4, 5, 6: extent of the rod along the actuator axis
     let t89 = sqrt(neg_mul_add(t73, t73, t70) - t79);
-    // constant and copied elements
-    let t90 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
-    // angular velocity of the platform relative to the base
-    let t91 = t75 - t83;
-    // platform origin seen from the base
-    let t92 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
     // angular velocity of the base
-    let t93 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
-    // acceleration per base coordinate of points that move with the base
-    let t94 = t86 * t87;
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t95 = t90 / t70;
-    // velocity of the platform origin relative to the base
-    let t96 = mul_add(t92, t93, neg_mul_add(t84, t85, t80));
-    // angular velocity of the base
-    let t97 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t90 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t91 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
     // constant and copied elements
-    let t98 =
+    let t92 =
         P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    // angular velocity of the platform relative to the base
+    let t93 = t75 - t83;
+    // platform origin seen from the base
+    let t94 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t95 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t96 = t90 * t91;
     // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t99 = t98 / t61;
+    let t97 = t92 / t61;
+    // velocity of the platform origin relative to the base
+    let t98 = mul_add(t94, t95, neg_mul_add(t84, t85, t80));
+    // angular velocity of the base
+    let t99 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
     // acceleration of the base origin less gravity
     let t100 = base_acceleration[0] - parameters.gravity[0];
     let t101 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
@@ -33603,1041 +33609,1040 @@ pub fn control_in_lanes<P: Triple>(
     // acceleration of the platform origin less gravity
     let t103 = t1 * P::splat(parameters.gravity[1]);
     // acceleration per base coordinate of points that move with the base
-    let t104 = mul_add(t102, t102, t97 * t97);
-    // angular acceleration of the base
-    let t105 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
-    // acceleration per base coordinate of points that move with the base
-    let t106 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
-    // angular velocity of the platform relative to the base
-    let t107 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
-    // angular acceleration of the base
-    let t108 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
-    // acceleration per base coordinate of points that move with the base
-    let t109 = t105 + t106;
-    // acceleration of the platform origin less gravity
-    let t110 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t111 = neg_mul_add(t32, P::splat(P::lane(t91, 2)), P::splat(P::lane(t96, 1)));
-    // acceleration of the base origin less gravity
-    let t112 = base_acceleration[2] - parameters.gravity[2];
-    // acceleration per base coordinate of points that move with the base
-    let t113 = mul_sub(t86, t87, t108);
+    let t104 = mul_add(t102, t102, t99 * t99);
     // constant and copied elements
-    let t114 =
+    let t105 =
         P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t115 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
-    // angular velocity of the platform
-    let t116 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t117 = t114 * t115;
-    // acceleration of the platform origin relative to the base, less w x v
-    let t118 = t85 + t116;
+    let t106 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    // angular acceleration of the base
+    let t107 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t108 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
     // angular velocity of the platform relative to the base
-    let t119 = P::triple([P::lane(t91, 1), P::lane(t91, 2), P::lane(t91, 0)]);
-    // legs 1, 2, 3: reciprocal of that extent
-    let t120 = w(1.0) / t81;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t121 = neg_mul_add(t37, P::splat(P::lane(t91, 1)), P::splat(P::lane(t96, 0)));
-    // acceleration of the base origin less gravity
-    let t122 = mul_add(t5, P::splat(t112), mul_add(t2, P::splat(t100), t101));
-    // acceleration of the platform origin less gravity
-    let t123 = mul_add(t5, P::splat(parameters.gravity[2]), t110);
-    // rate of that angular velocity
-    let t124 = mul_add(t93, t119, neg_mul_add(t85, t107, t88));
-    // constant and copied elements
-    let t125 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t126 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t127 = mul_add(t37, P::splat(P::lane(t91, 0)), t111);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t128 = t125 * t126;
+    let t109 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
     // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t129 = mul_add(t114, t117, t95);
+    let t110 = t105 * t106;
+    // angular acceleration of the base
+    let t111 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t130 = P::triple([P::lane(t113, 0), -P::lane(t104, 1), P::lane(t109, 2)]);
+    let t112 = t107 + t108;
+    // acceleration of the platform origin less gravity
+    let t113 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t131 = mul_add(t33, P::splat(P::lane(t91, 2)), t121);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t132 = neg_mul_add(t40, P::splat(P::lane(t91, 2)), P::splat(P::lane(t96, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t133 = neg_mul_add(t33, P::splat(P::lane(t91, 0)), P::splat(P::lane(t96, 2)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t134 = P::splat(P::lane(t22, 1)) * t130;
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t135 = mul_add(t125, t128, t99);
+    let t114 = neg_mul_add(t32, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
+    // acceleration of the base origin less gravity
+    let t115 = base_acceleration[2] - parameters.gravity[2];
     // acceleration per base coordinate of points that move with the base
-    let t136 = P::triple([-P::lane(t104, 0), P::lane(t109, 1), P::lane(t113, 2)]);
-    let t137 = P::triple([P::lane(t109, 0), P::lane(t113, 1), -P::lane(t104, 2)]);
-    // velocity of the platform origin relative to the base
-    let t138 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t139 = P::triple([P::lane(t118, 1), P::lane(t118, 2), P::lane(t118, 0)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t140 = t37 * P::splat(P::lane(t124, 0));
-    // legs 4, 5, 6: reciprocal of that extent
-    let t141 = w(1.0) / t89;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t142 = neg_mul_add(t47, P::splat(P::lane(t91, 1)), P::splat(P::lane(t96, 0)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t143 = mul_add(P::splat(P::lane(t22, 2)), t137, t122 + t123);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t144 = mul_add(t47, P::splat(P::lane(t91, 0)), t132);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t145 = mul_add(t32, P::splat(P::lane(t91, 1)), t133);
-    // second moment of payload and platform-side leg ends
-    let t146 = mul_add(t135, t12 * t12, t129 * (t19 * t19));
-    let t147 = mul_add(t135, t9 * t12, t129 * (t18 * t19));
-    let t148 = mul_add(t135, t12 * t13, t129 * (t19 * t20));
-    // velocity of the platform origin relative to the base
-    let t149 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t150 = t33 * P::splat(P::lane(t124, 2));
-    let t151 = mul_sub(t32, P::splat(P::lane(t124, 2)), t140);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t152 = mul_add(t36, P::splat(P::lane(t91, 2)), t142);
-    let t153 = neg_mul_add(t36, P::splat(P::lane(t91, 0)), P::splat(P::lane(t96, 2)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t154 = mul_add(P::splat(P::lane(t22, 0)), t136, t134) + t143;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t155 = mul_add(t51, t145, mul_add(t44, t131, t39 * t127));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t156 = mul_sub(t37, P::splat(P::lane(t124, 1)), t150);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t157 = mul_add(t62, t120, t39);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t158 = mul_add(P::splat(P::lane(t91, 2)), t131, t151);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t159 = t47 * P::splat(P::lane(t124, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t160 = t32 * P::splat(P::lane(t124, 1));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t161 = w(1.0) - t125;
-    // acceleration of the platform origin relative to the base, less w x v
-    let t162 = mul_sub(t118, t149, t138 * t139) + t154;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t163 = mul_add(t40, P::splat(P::lane(t91, 1)), t153);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t164 = mul_add(t63, t120, t44);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t165 = P::splat(base_rotation[0][1]) * t39;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t166 = neg_mul_add(t39, t155, t127);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t167 = mul_add(P::splat(P::lane(t91, 1)), t145, t156);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t168 = t36 * P::splat(P::lane(t124, 2));
-    let t169 = mul_sub(t40, P::splat(P::lane(t124, 2)), t159);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t170 = mul_sub(t33, P::splat(P::lane(t124, 0)), t160);
-    // second moment of payload and platform-side leg ends
-    let t171 = mul_add(t135, t9 * t9, t129 * (t18 * t18));
-    let t172 = mul_add(t135, t9 * t13, t129 * (t18 * t20));
-    let t173 = P::triple([P::lane(t146, 0), P::lane(t147, 0), P::lane(t148, 0)]);
-    let t174 = P::triple([P::lane(t146, 1), P::lane(t147, 1), P::lane(t148, 1)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t175 = P::splat(base_rotation[1][1]) * t39;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t176 = neg_mul_add(P::splat(P::lane(t91, 0)), t145, t158);
-    // legs 1, 2, 3: actuator length d
-    let t177 = t57 - t81;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t178 = P::splat(base_rotation[2][1]) * t39;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t179 = P::splat(base_rotation[0][1]) * t157;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t180 = mul_add(P::splat(base_rotation[0][0]), t44, t165);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t181 = neg_mul_add(t44, t155, t131);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t182 = mul_add(t56, t163, mul_add(t54, t152, t52 * t144));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t183 = mul_sub(t47, P::splat(P::lane(t124, 1)), t168);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t184 = mul_add(t71, t141, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t185 = mul_add(t65, t120, t51);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t186 = P::splat(base_rotation[1][1]) * t157;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t187 = mul_add(t161, t126 * t161, t99);
-    // second moment of payload and platform-side leg ends
-    let t188 = P::triple([P::lane(t146, 2), P::lane(t147, 2), P::lane(t148, 2)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t189 = mul_add(P::splat(base_rotation[1][0]), t44, t175);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t190 = neg_mul_add(P::splat(P::lane(t91, 2)), t127, t167);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t191 = mul_add(P::splat(P::lane(t91, 2)), t152, t169);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t192 = mul_add(P::splat(P::lane(t91, 0)), t127, t170);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t193 = t40 * P::splat(P::lane(t124, 1));
-    // legs 1, 2, 3: gradient of the actuator length
-    let t194 = P::splat(base_rotation[2][1]) * t157;
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t195 = w(1.0) - t114;
-    // second moment of payload and platform-side leg ends
-    let t196 = t173 + t174 + t188;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t197 = mul_add(P::splat(base_rotation[2][0]), t44, t178);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t198 = P::splat(P::lane(t162, 1)) + t176;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t199 = mul_add(t39, t177, t21);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t200 = mul_add(P::splat(base_rotation[0][0]), t164, t179);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t201 = mul_add(t72, t141, t54);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t202 = mul_add(P::splat(base_rotation[1][0]), t164, t186);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
-    let t203 = neg_mul_add(t128, t161, t99);
+    let t116 = mul_sub(t90, t91, t111);
     // constant and copied elements
-    let t204 =
+    let t117 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+    let t118 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    // angular velocity of the platform
+    let t119 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t120 = t117 * t118;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t121 = mul_add(t105, t110, t87);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t122 = t85 + t119;
+    // angular velocity of the platform relative to the base
+    let t123 = P::triple([P::lane(t93, 1), P::lane(t93, 2), P::lane(t93, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t124 = w(1.0) / t81;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t125 = neg_mul_add(t37, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    // acceleration of the base origin less gravity
+    let t126 = mul_add(t5, P::splat(t115), mul_add(t2, P::splat(t100), t101));
+    // acceleration of the platform origin less gravity
+    let t127 = mul_add(t5, P::splat(parameters.gravity[2]), t113);
+    // rate of that angular velocity
+    let t128 = mul_add(t95, t123, neg_mul_add(t85, t109, t88));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t129 = mul_add(t37, P::splat(P::lane(t93, 0)), t114);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t130 = mul_add(t117, t120, t97);
+    // acceleration per base coordinate of points that move with the base
+    let t131 = P::triple([P::lane(t116, 0), -P::lane(t104, 1), P::lane(t112, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t132 = mul_add(t33, P::splat(P::lane(t93, 2)), t125);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t133 = neg_mul_add(t40, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t134 = neg_mul_add(t33, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t135 = P::splat(P::lane(t22, 1)) * t131;
+    // second moment of payload and platform-side leg ends
+    let t136 = mul_add(t130, t12 * t12, t121 * (t19 * t19));
+    let t137 = mul_add(t130, t9 * t12, t121 * (t18 * t19));
+    let t138 = mul_add(t130, t12 * t13, t121 * (t19 * t20));
+    // acceleration per base coordinate of points that move with the base
+    let t139 = P::triple([-P::lane(t104, 0), P::lane(t112, 1), P::lane(t116, 2)]);
+    let t140 = P::triple([P::lane(t112, 0), P::lane(t116, 1), -P::lane(t104, 2)]);
+    // velocity of the platform origin relative to the base
+    let t141 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t142 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t143 = t37 * P::splat(P::lane(t128, 0));
+    // legs 4, 5, 6: reciprocal of that extent
+    let t144 = w(1.0) / t89;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t145 = neg_mul_add(t47, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t146 = mul_add(P::splat(P::lane(t22, 2)), t140, t126 + t127);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t147 = mul_add(t47, P::splat(P::lane(t93, 0)), t133);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t148 = mul_add(t32, P::splat(P::lane(t93, 1)), t134);
+    // velocity of the platform origin relative to the base
+    let t149 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t150 = t33 * P::splat(P::lane(t128, 2));
+    let t151 = mul_sub(t32, P::splat(P::lane(t128, 2)), t143);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t152 = mul_add(t36, P::splat(P::lane(t93, 2)), t145);
+    let t153 = neg_mul_add(t36, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t154 = mul_add(P::splat(P::lane(t22, 0)), t139, t135) + t146;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t155 = mul_add(t51, t148, mul_add(t44, t132, t39 * t129));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t156 = mul_sub(t37, P::splat(P::lane(t128, 1)), t150);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t157 = mul_add(t62, t124, t39);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t158 = mul_add(P::splat(P::lane(t93, 2)), t132, t151);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t159 = t47 * P::splat(P::lane(t128, 0));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t160 = t32 * P::splat(P::lane(t128, 1));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t161 = w(1.0) - t117;
+    // second moment of payload and platform-side leg ends
+    let t162 = mul_add(t130, t9 * t9, t121 * (t18 * t18));
+    let t163 = mul_add(t130, t9 * t13, t121 * (t18 * t20));
+    let t164 = P::triple([P::lane(t136, 0), P::lane(t137, 0), P::lane(t138, 0)]);
+    let t165 = P::triple([P::lane(t136, 1), P::lane(t137, 1), P::lane(t138, 1)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t166 = mul_sub(t122, t149, t141 * t142) + t154;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t167 = mul_add(t40, P::splat(P::lane(t93, 1)), t153);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t168 = mul_add(t63, t124, t44);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t169 = P::splat(base_rotation[0][1]) * t39;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t170 = neg_mul_add(t39, t155, t129);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t171 = mul_add(P::splat(P::lane(t93, 1)), t148, t156);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t172 = t36 * P::splat(P::lane(t128, 2));
+    let t173 = mul_sub(t40, P::splat(P::lane(t128, 2)), t159);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t174 = mul_sub(t33, P::splat(P::lane(t128, 0)), t160);
+    // second moment of payload and platform-side leg ends
+    let t175 = P::triple([P::lane(t136, 2), P::lane(t137, 2), P::lane(t138, 2)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t176 = P::splat(base_rotation[1][1]) * t39;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t177 = neg_mul_add(P::splat(P::lane(t93, 0)), t148, t158);
+    // legs 1, 2, 3: actuator length d
+    let t178 = t57 - t81;
+    // second moment of payload and platform-side leg ends
+    let t179 = t164 + t165 + t175;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t180 = P::splat(base_rotation[2][1]) * t39;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t181 = P::splat(base_rotation[0][1]) * t157;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t182 = mul_add(P::splat(base_rotation[0][0]), t44, t169);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t183 = neg_mul_add(t44, t155, t132);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t184 = mul_add(t56, t167, mul_add(t54, t152, t52 * t147));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t185 = mul_sub(t47, P::splat(P::lane(t128, 1)), t172);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t186 = mul_add(t71, t144, t52);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t187 = mul_add(t65, t124, t51);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t188 = P::splat(base_rotation[1][1]) * t157;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t189 = mul_add(t161, t118 * t161, t97);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t190 = mul_add(P::splat(base_rotation[1][0]), t44, t176);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t191 = neg_mul_add(P::splat(P::lane(t93, 2)), t129, t171);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t192 = mul_add(P::splat(P::lane(t93, 2)), t152, t173);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t193 = mul_add(P::splat(P::lane(t93, 0)), t129, t174);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t194 = t40 * P::splat(P::lane(t128, 1));
+    // legs 1, 2, 3: gradient of the actuator length
+    let t195 = P::splat(base_rotation[2][1]) * t157;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t196 = w(1.0) - t105;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t197 = mul_add(P::splat(base_rotation[2][0]), t44, t180);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t198 = P::splat(P::lane(t166, 1)) + t177;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t199 = mul_add(t39, t178, t21);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t200 = mul_add(P::splat(base_rotation[0][0]), t168, t181);
+    // second moment of payload and platform-side leg ends
+    let t201 = mul_add(t130, t13 * t13, t121 * (t20 * t20));
+    let t202 = P::lane(t163, 1) + P::lane(t163, 0);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t203 = mul_add(t72, t144, t54);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t204 = mul_add(P::splat(base_rotation[1][0]), t168, t188);
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t205 = neg_mul_add(t120, t161, t97);
+    // constant and copied elements
+    let t206 =
         P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t205 = P::splat(base_rotation[1][1]) * t52;
+    let t207 = P::splat(base_rotation[1][1]) * t52;
     // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t206 = neg_mul_add(t52, t182, t144);
+    let t208 = neg_mul_add(t52, t184, t147);
     // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t207 = neg_mul_add(t51, t155, t145);
+    let t209 = neg_mul_add(t51, t155, t148);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t208 = mul_add(P::splat(P::lane(t91, 1)), t163, t183);
-    let t209 = mul_sub(t36, P::splat(P::lane(t124, 0)), t193);
+    let t210 = mul_add(P::splat(P::lane(t93, 1)), t167, t185);
+    let t211 = mul_sub(t36, P::splat(P::lane(t128, 0)), t194);
     // legs 1, 2, 3: gradient of the actuator length
-    let t210 = mul_add(P::splat(base_rotation[2][0]), t164, t194);
+    let t212 = mul_add(P::splat(base_rotation[2][0]), t168, t195);
     // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
-    let t211 = t187 + t204;
+    let t213 = t189 + t206;
     // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t212 = mul_add(t145, t185, mul_add(t131, t164, t127 * t157));
+    let t214 = mul_add(t148, t187, mul_add(t132, t168, t129 * t157));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t213 = t190 + P::splat(P::lane(t162, 0));
+    let t215 = t191 + P::splat(P::lane(t166, 0));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t214 = neg_mul_add(P::splat(P::lane(t91, 0)), t163, t191);
+    let t216 = neg_mul_add(P::splat(P::lane(t93, 0)), t167, t192);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t215 = neg_mul_add(P::splat(P::lane(t91, 1)), t131, t192);
+    let t217 = neg_mul_add(P::splat(P::lane(t93, 1)), t132, t193);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t216 = mul_add(t44, t177, t38);
-    let t217 = mul_add(t51, t177, t46);
+    let t218 = mul_add(t44, t178, t38);
+    let t219 = mul_add(t51, t178, t46);
     // legs 4, 5, 6: actuator length d
-    let t218 = t64 - t89;
+    let t220 = t64 - t89;
     // second moment of payload and platform-side leg ends
-    let t219 = mul_add(t135, t13 * t13, t129 * (t20 * t20));
-    let t220 = P::lane(t172, 1) + P::lane(t172, 0);
+    let t221 = P::triple([P::lane(t179, 1), P::lane(t162, 2), P::lane(t163, 2)]);
+    let t222 = P::triple([c(0.0), P::lane(t162, 1) + P::lane(t162, 0), t202]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t221 = P::splat(P::lane(t113, 0)) * t199;
-    let t222 = P::splat(P::lane(t104, 1)) * t199;
-    let t223 = P::splat(P::lane(t109, 2)) * t199;
+    let t223 = P::splat(P::lane(t116, 0)) * t199;
+    let t224 = P::splat(P::lane(t104, 1)) * t199;
+    let t225 = P::splat(P::lane(t112, 2)) * t199;
     // legs 1, 2, 3: gradient of the actuator length
-    let t224 = mul_add(P::splat(base_rotation[0][2]), t185, t200);
+    let t226 = mul_add(P::splat(base_rotation[0][2]), t187, t200);
     // legs 4, 5, 6: gradient of the actuator length
-    let t225 = P::splat(base_rotation[1][1]) * t184;
+    let t227 = P::splat(base_rotation[1][1]) * t186;
+    // second moment of payload and platform-side leg ends
+    let t228 = t221 + t222;
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t226 = P::splat(base_rotation[0][1]) * t52;
-    let t227 = mul_add(P::splat(base_rotation[1][0]), t54, t205);
-    let t228 = P::splat(base_rotation[2][1]) * t52;
+    let t229 = P::splat(base_rotation[0][1]) * t52;
+    let t230 = mul_add(P::splat(base_rotation[1][0]), t54, t207);
+    let t231 = P::splat(base_rotation[2][1]) * t52;
     // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t229 = neg_mul_add(t54, t182, t152);
+    let t232 = neg_mul_add(t54, t184, t152);
     // rotation of the platform seen from the base
-    let t230 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t231 = mul_add(t73, t141, t56);
+    let t234 = mul_add(t73, t144, t56);
     // legs 1, 2, 3: gradient of the actuator length
-    let t232 = mul_add(P::splat(base_rotation[1][2]), t185, t202);
+    let t235 = mul_add(P::splat(base_rotation[1][2]), t187, t204);
     // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t233 = mul_add(t195, t115 * t195, t95);
+    let t236 = mul_add(t196, t106 * t196, t87);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t234 = t211 * w(0.5);
-    let t235 = t203 * mul_add(P::splat(base_rotation[0][2]), t51, t180);
+    let t237 = t213 * w(0.5);
+    let t238 = t205 * mul_add(P::splat(base_rotation[0][2]), t51, t182);
     // acceleration per platform coordinate of points of the platform
-    let t236 = mul_sub(t83, t230, t14 * t116);
+    let t239 = mul_sub(t83, t233, t14 * t119);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t237 = neg_mul_add(P::splat(P::lane(t91, 2)), t144, t208);
-    let t238 = mul_add(P::splat(P::lane(t91, 0)), t144, t209);
+    let t240 = neg_mul_add(P::splat(P::lane(t93, 2)), t147, t210);
+    let t241 = mul_add(P::splat(P::lane(t93, 0)), t147, t211);
     // legs 1, 2, 3: actuator acceleration d''
-    let t239 = mul_add(t207, t207, mul_add(t181, t181, t166 * t166));
+    let t242 = mul_add(t209, t209, mul_add(t183, t183, t170 * t170));
     // legs 1, 2, 3: gradient of the actuator length
-    let t240 = mul_add(P::splat(base_rotation[2][2]), t185, t210);
-    // second moment of payload and platform-side leg ends
-    let t241 = P::triple([P::lane(t196, 1), P::lane(t171, 2), P::lane(t172, 2)]);
-    let t242 = P::triple([c(0.0), P::lane(t171, 1) + P::lane(t171, 0), t220]);
+    let t243 = mul_add(P::splat(base_rotation[2][2]), t187, t212);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t243 = t203 * mul_add(P::splat(base_rotation[1][2]), t51, t189);
+    let t244 = t205 * mul_add(P::splat(base_rotation[1][2]), t51, t190);
     // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t244 = t155 - t212;
+    let t245 = t155 - t214;
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t245 = P::splat(P::lane(t162, 1)) + t214;
+    let t246 = P::splat(P::lane(t166, 1)) + t216;
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t246 = P::splat(P::lane(t162, 2)) + t215;
+    let t247 = P::splat(P::lane(t166, 2)) + t217;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t247 = mul_add(P::splat(P::lane(t109, 0)), t217, P::splat(P::lane(t122, 0)));
-    let t248 = t39 * P::splat(P::lane(t75, 2));
-    let t249 = mul_add(P::splat(P::lane(t113, 1)), t217, P::splat(P::lane(t122, 1)));
-    let t250 = t51 * P::splat(P::lane(t75, 0));
-    let t251 = neg_mul_add(P::splat(P::lane(t104, 2)), t217, P::splat(P::lane(t122, 2)));
-    let t252 = t44 * P::splat(P::lane(t75, 1));
+    let t248 = mul_add(P::splat(P::lane(t112, 0)), t219, P::splat(P::lane(t126, 0)));
+    let t249 = t39 * P::splat(P::lane(t75, 2));
+    let t250 = mul_add(P::splat(P::lane(t116, 1)), t219, P::splat(P::lane(t126, 1)));
+    let t251 = t51 * P::splat(P::lane(t75, 0));
+    let t252 = neg_mul_add(P::splat(P::lane(t104, 2)), t219, P::splat(P::lane(t126, 2)));
+    let t253 = t44 * P::splat(P::lane(t75, 1));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t253 = mul_add(t52, t218, t45);
+    let t254 = mul_add(t52, t220, t45);
     // legs 4, 5, 6: gradient of the actuator length
-    let t254 = P::splat(base_rotation[0][1]) * t184;
-    let t255 = mul_add(P::splat(base_rotation[1][0]), t201, t225);
-    let t256 = P::splat(base_rotation[2][1]) * t184;
-    // second moment of payload and platform-side leg ends
-    let t257 = t241 + t242;
+    let t255 = P::splat(base_rotation[0][1]) * t186;
+    let t256 = mul_add(P::splat(base_rotation[1][0]), t203, t227);
+    let t257 = P::splat(base_rotation[2][1]) * t186;
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t258 = mul_add(P::splat(base_rotation[0][0]), t54, t226);
+    let t258 = mul_add(P::splat(base_rotation[0][0]), t54, t229);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t259 = t203 * mul_add(P::splat(base_rotation[2][2]), t51, t197);
+    let t259 = t205 * mul_add(P::splat(base_rotation[2][2]), t51, t197);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t260 = mul_add(P::splat(base_rotation[2][0]), t54, t228);
+    let t260 = mul_add(P::splat(base_rotation[2][0]), t54, t231);
     // rotation of the platform seen from the base
     let t261 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
     let t262 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
     // legs 1, 2, 3: platform joint from the platform origin
     let t263 = P::splat(platform_rotation[2][1]) * t9;
     // legs 4, 5, 6: rod's inertial coupling between its ends
-    let t264 = neg_mul_add(t117, t195, t95);
+    let t264 = neg_mul_add(t110, t196, t87);
     // constant and copied elements
     let t265 =
         P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t266 = mul_sub(t224, t234, t235);
+    let t266 = mul_sub(t226, t237, t238);
     // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t267 = neg_mul_add(t56, t182, t163);
+    let t267 = neg_mul_add(t56, t184, t167);
     // acceleration per platform coordinate of points of the platform
-    let t268 = mul_sub(t83, t261, t15 * t116);
-    let t269 = mul_sub(t83, t262, t17 * t116);
+    let t268 = mul_sub(t83, t261, t15 * t119);
+    let t269 = mul_sub(t83, t262, t17 * t119);
     // legs 1, 2, 3: platform joint from the platform origin
     let t270 = P::splat(platform_rotation[0][1]) * t9;
     let t271 = P::splat(platform_rotation[1][1]) * t9;
     // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
-    let t272 = t233 + t265;
+    let t272 = t236 + t265;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t273 = mul_sub(t232, t234, t243);
+    let t273 = mul_sub(t235, t237, t244);
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t274 = mul_add(t163, t231, mul_add(t152, t201, t144 * t184));
+    let t274 = mul_add(t167, t234, mul_add(t152, t203, t147 * t186));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t275 = P::splat(P::lane(t162, 0)) + t237;
-    let t276 = neg_mul_add(P::splat(P::lane(t91, 1)), t152, t238);
+    let t275 = P::splat(P::lane(t166, 0)) + t240;
+    let t276 = neg_mul_add(P::splat(P::lane(t93, 1)), t152, t241);
     // legs 1, 2, 3: actuator acceleration d''
-    let t277 = mul_add(t185, t246, mul_add(t164, t213, t157 * t198));
+    let t277 = mul_add(t187, t247, mul_add(t168, t215, t157 * t198));
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t278 = mul_sub(t51, P::splat(P::lane(t75, 1)), t248);
-    let t279 = mul_sub(t44, P::splat(P::lane(t75, 2)), t250);
-    let t280 = mul_sub(t39, P::splat(P::lane(t75, 0)), t252);
+    let t278 = mul_sub(t51, P::splat(P::lane(t75, 1)), t249);
+    let t279 = mul_sub(t44, P::splat(P::lane(t75, 2)), t251);
+    let t280 = mul_sub(t39, P::splat(P::lane(t75, 0)), t253);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t281 = mul_add(t54, t218, t50);
-    let t282 = mul_add(t56, t218, t55);
+    let t281 = mul_add(t54, t220, t50);
+    let t282 = mul_add(t56, t220, t55);
     // legs 4, 5, 6: gradient of the actuator length
-    let t283 = mul_add(P::splat(base_rotation[0][0]), t201, t254);
-    let t284 = mul_add(P::splat(base_rotation[2][0]), t201, t256);
+    let t283 = mul_add(P::splat(base_rotation[0][0]), t203, t255);
+    let t284 = mul_add(P::splat(base_rotation[2][0]), t203, t257);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t285 = mul_sub(t234, t240, t259);
+    let t285 = mul_sub(t237, t243, t259);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t286 = t247 - mul_sub(P::splat(P::lane(t104, 0)), t216, t221);
-    let t287 = t212 * w(2.0);
-    let t288 = mul_sub(P::splat(P::lane(t109, 1)), t216, t222) + t249;
-    let t289 = mul_add(P::splat(P::lane(t113, 2)), t216, t223) + t251;
+    let t286 = t248 - mul_sub(P::splat(P::lane(t104, 0)), t218, t223);
+    let t287 = t214 * w(2.0);
+    let t288 = mul_sub(P::splat(P::lane(t112, 1)), t218, t224) + t250;
+    let t289 = mul_add(P::splat(P::lane(t116, 2)), t218, t225) + t252;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t290 = P::splat(P::lane(t113, 0)) * t253;
-    let t291 = P::splat(P::lane(t104, 1)) * t253;
-    let t292 = P::splat(P::lane(t109, 2)) * t253;
+    let t290 = P::splat(P::lane(t116, 0)) * t254;
+    let t291 = P::splat(P::lane(t104, 1)) * t254;
+    let t292 = P::splat(P::lane(t112, 2)) * t254;
     // legs 1, 2, 3: platform joint from the platform origin
     let t293 = mul_add(P::splat(platform_rotation[2][0]), t12, t263);
     // legs 4, 5, 6: gradient of the actuator length
-    let t294 = mul_add(P::splat(base_rotation[1][2]), t231, t255);
+    let t294 = mul_add(P::splat(base_rotation[1][2]), t234, t256);
+    // second moment of payload and platform-side leg ends
+    let t295 = P::triple([P::lane(t179, 2), P::lane(t228, 2), P::lane(t201, 2)]);
+    let t296 = P::triple([c(0.0), c(0.0), P::lane(t201, 1) + P::lane(t201, 0)]);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t295 = mul_add(P::splat(platform_rotation[0][0]), t12, t270);
-    let t296 = mul_add(P::splat(platform_rotation[1][0]), t12, t271);
+    let t297 = mul_add(P::splat(platform_rotation[0][0]), t12, t270);
+    let t298 = mul_add(P::splat(platform_rotation[1][0]), t12, t271);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t297 = w(0.5) * t272;
-    let t298 = t264 * mul_add(P::splat(base_rotation[1][2]), t56, t227);
+    let t299 = w(0.5) * t272;
+    let t300 = t264 * mul_add(P::splat(base_rotation[1][2]), t56, t230);
     // legs 4, 5, 6: actuator acceleration d''
-    let t299 = mul_add(t267, t267, mul_add(t229, t229, t206 * t206));
+    let t301 = mul_add(t267, t267, mul_add(t232, t232, t208 * t208));
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t300 = t182 - t274;
+    let t302 = t184 - t274;
     // angular velocity of the platform
-    let t301 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t303 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t302 = P::triple([P::lane(t236, 2), P::lane(t236, 0), P::lane(t236, 1)]);
+    let t304 = P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t303 = P::splat(P::lane(t162, 2)) + t276;
+    let t305 = P::splat(P::lane(t166, 2)) + t276;
     // legs 1, 2, 3: actuator acceleration d''
-    let t304 = neg_mul_add(t120, mul_add(t244, t244, t239), t277);
+    let t306 = neg_mul_add(t124, mul_add(t245, t245, t242), t277);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t305 = mul_add(P::splat(P::lane(t109, 0)), t282, P::splat(P::lane(t122, 0)));
-    let t306 = t52 * P::splat(P::lane(t75, 2));
-    let t307 = mul_add(P::splat(P::lane(t113, 1)), t282, P::splat(P::lane(t122, 1)));
-    let t308 = t56 * P::splat(P::lane(t75, 0));
-    let t309 = neg_mul_add(P::splat(P::lane(t104, 2)), t282, P::splat(P::lane(t122, 2)));
-    let t310 = t54 * P::splat(P::lane(t75, 1));
+    let t307 = mul_add(P::splat(P::lane(t112, 0)), t282, P::splat(P::lane(t126, 0)));
+    let t308 = t52 * P::splat(P::lane(t75, 2));
+    let t309 = mul_add(P::splat(P::lane(t116, 1)), t282, P::splat(P::lane(t126, 1)));
+    let t310 = t56 * P::splat(P::lane(t75, 0));
+    let t311 = neg_mul_add(P::splat(P::lane(t104, 2)), t282, P::splat(P::lane(t126, 2)));
+    let t312 = t54 * P::splat(P::lane(t75, 1));
     // legs 4, 5, 6: gradient of the actuator length
-    let t311 = mul_add(P::splat(base_rotation[0][2]), t231, t283);
-    let t312 = mul_add(P::splat(base_rotation[2][2]), t231, t284);
+    let t313 = mul_add(P::splat(base_rotation[0][2]), t234, t283);
+    let t314 = mul_add(P::splat(base_rotation[2][2]), t234, t284);
     // second moment of payload and platform-side leg ends
-    let t313 = P::triple([P::lane(t196, 2), P::lane(t257, 2), P::lane(t219, 2)]);
-    let t314 = P::triple([c(0.0), c(0.0), P::lane(t219, 1) + P::lane(t219, 0)]);
+    let t315 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t315 = t240 * t285;
+    let t316 = t243 * t285;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t316 = P::splat(platform_rotation[0][1]) * t18;
+    let t317 = P::splat(platform_rotation[0][1]) * t18;
     // legs 1, 2, 3: platform joint from the platform origin
-    let t317 = mul_add(P::splat(platform_rotation[2][2]), t13, t293);
+    let t318 = mul_add(P::splat(platform_rotation[2][2]), t13, t293);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t318 = t264 * mul_add(P::splat(base_rotation[0][2]), t56, t258);
-    let t319 = mul_sub(t294, t297, t298);
+    let t319 = t264 * mul_add(P::splat(base_rotation[0][2]), t56, t258);
+    let t320 = mul_sub(t294, t299, t300);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t320 = mul_add(t224, t285, t240 * t266);
+    let t321 = mul_add(t226, t285, t243 * t266);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t321 = t264 * mul_add(P::splat(base_rotation[2][2]), t56, t260);
+    let t322 = t264 * mul_add(P::splat(base_rotation[2][2]), t56, t260);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t322 = mul_add(P::splat(platform_rotation[0][2]), t13, t295);
-    let t323 = mul_add(P::splat(platform_rotation[1][2]), t13, t296);
+    let t323 = mul_add(P::splat(platform_rotation[0][2]), t13, t297);
+    let t324 = mul_add(P::splat(platform_rotation[1][2]), t13, t298);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t324 = P::splat(platform_rotation[1][1]) * t18;
+    let t325 = P::splat(platform_rotation[1][1]) * t18;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t325 = mul_add(t232, t285, t240 * t273);
+    let t326 = mul_add(t235, t285, t243 * t273);
     // acceleration per platform coordinate of points of the platform
-    let t326 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
-    let t327 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
+    let t327 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
+    let t328 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
     // legs 4, 5, 6: actuator acceleration d''
-    let t328 = mul_add(t231, t303, mul_add(t201, t275, t184 * t245));
+    let t329 = mul_add(t234, t305, mul_add(t203, t275, t186 * t246));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t329 = mul_sub(t56, P::splat(P::lane(t75, 1)), t306);
-    let t330 = mul_sub(t54, P::splat(P::lane(t75, 2)), t308);
-    let t331 = mul_sub(t52, P::splat(P::lane(t75, 0)), t310);
+    let t330 = mul_sub(t56, P::splat(P::lane(t75, 1)), t308);
+    let t331 = mul_sub(t54, P::splat(P::lane(t75, 2)), t310);
+    let t332 = mul_sub(t52, P::splat(P::lane(t75, 0)), t312);
     // second moment of payload and platform-side leg ends
-    let t332 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t333 = t232 * t273;
-    let t334 = w(2.0) * t315;
-    // acceleration per platform coordinate of points of the platform
-    let t335 = mul_sub(t116, t236, t301 * t302);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t336 = neg_mul_add(t44, t304, mul_add(t278, t287, t286));
-    let t337 = neg_mul_add(t39, t304, mul_add(t279, t287, t288));
-    let t338 = neg_mul_add(t51, t304, mul_add(t280, t287, t289));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t339 = t305 - mul_sub(P::splat(P::lane(t104, 0)), t281, t290);
-    let t340 = t274 * w(2.0);
-    let t341 = mul_sub(P::splat(P::lane(t109, 1)), t281, t291) + t307;
-    let t342 = mul_add(P::splat(P::lane(t113, 2)), t281, t292) + t309;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t343 = mul_add(P::splat(platform_rotation[0][0]), t19, t316);
-    let t344 = P::splat(platform_rotation[2][1]) * t18;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t345 = mul_sub(t297, t311, t318);
-    let t346 = mul_sub(t297, t312, t321);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t347 = mul_add(P::splat(platform_rotation[1][0]), t19, t324);
-    // second moment of payload and platform-side leg ends
-    let t348 = t332 + parameters.payload_inertia[2][2];
+    let t333 = t315 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t349 =
+    let t334 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t350 =
+    let t335 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t351 = w(2.0) * t333;
-    // mass matrix of the legs
-    let t352 = t322 * t325;
+    let t336 = t235 * t273;
+    let t337 = w(2.0) * t316;
     // acceleration per platform coordinate of points of the platform
-    let t353 = mul_sub(t116, t268, t301 * t326);
-    let t354 = mul_sub(t116, t269, t301 * t327);
+    let t338 = mul_sub(t119, t239, t303 * t304);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t339 = neg_mul_add(t44, t306, mul_add(t278, t287, t286));
+    let t340 = neg_mul_add(t39, t306, mul_add(t279, t287, t288));
+    let t341 = neg_mul_add(t51, t306, mul_add(t280, t287, t289));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t342 = t307 - mul_sub(P::splat(P::lane(t104, 0)), t281, t290);
+    let t343 = t274 * w(2.0);
+    let t344 = mul_sub(P::splat(P::lane(t112, 1)), t281, t291) + t309;
+    let t345 = mul_add(P::splat(P::lane(t116, 2)), t281, t292) + t311;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t346 = mul_add(P::splat(platform_rotation[0][0]), t19, t317);
+    let t347 = P::splat(platform_rotation[2][1]) * t18;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t348 = mul_sub(t299, t313, t319);
+    let t349 = mul_sub(t299, t314, t322);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t350 = mul_add(P::splat(platform_rotation[1][0]), t19, t325);
+    // second moment of payload and platform-side leg ends
+    let t351 = P::triple([P::lane(t179, 0), P::lane(t228, 1), P::lane(t295 + t296, 2)]);
+    // first moment of payload and platform-side leg ends
+    let t352 = mul_add(t12, t130, t19 * t121);
+    let t353 = mul_add(t9, t130, t18 * t121);
+    let t354 = mul_add(t13, t130, t20 * t121);
+    // second moment of payload and platform-side leg ends
+    let t355 = P::triple([P::lane(t179, 1), P::lane(t228, 2), P::lane(t179, 2)]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t356 = w(2.0) * t336;
+    // mass matrix of the legs
+    let t357 = t323 * t326;
+    // acceleration per platform coordinate of points of the platform
+    let t358 = mul_sub(t119, t268, t303 * t327);
+    let t359 = mul_sub(t119, t269, t303 * t328);
     // legs 4, 5, 6: actuator acceleration d''
-    let t355 = neg_mul_add(t141, mul_add(t300, t300, t299), t328);
+    let t360 = neg_mul_add(t144, mul_add(t302, t302, t301), t329);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t356 = mul_add(P::splat(platform_rotation[2][0]), t19, t344);
+    let t361 = mul_add(P::splat(platform_rotation[2][0]), t19, t347);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t357 = mul_add(t224, t273, t232 * t266);
+    let t362 = mul_add(t226, t273, t235 * t266);
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t358 = t203 * t336;
-    let t359 = t203 * t337;
-    let t360 = t203 * t338;
+    let t363 = t205 * t339;
+    let t364 = t205 * t340;
+    let t365 = t205 * t341;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t361 = mul_add(P::splat(platform_rotation[0][2]), t20, t343);
-    // second moment of payload and platform-side leg ends
-    let t362 = P::triple([P::lane(t196, 0), P::lane(t257, 1), P::lane(t313 + t314, 2)]);
+    let t366 = mul_add(P::splat(platform_rotation[0][2]), t20, t346);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t363 = t224 * t266;
+    let t367 = t226 * t266;
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t364 = mul_add(t294, t346, t312 * t319);
+    let t368 = mul_add(t294, t349, t314 * t320);
     // mass matrix of the legs
-    let t365 = mul_sub(t322, t334, t317 * t320);
+    let t369 = mul_sub(t323, t337, t318 * t321);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t366 = mul_add(P::splat(platform_rotation[1][2]), t20, t347);
-    // first moment of payload and platform-side leg ends
-    let t367 = mul_add(t12, t135, t19 * t129);
-    let t368 = mul_add(t9, t135, t18 * t129);
-    let t369 = mul_add(t13, t135, t20 * t129);
-    // second moment of payload and platform-side leg ends
-    let t370 = P::triple([P::lane(t196, 1), P::lane(t257, 2), P::lane(t196, 2)]);
-    // mass matrix of the legs
-    let t371 = mul_sub(t320, t323, t352);
-    let t372 = mul_sub(t317, t325, t323 * t334);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t373 = w(2.0) * (t294 * t319);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t374 = neg_mul_add(t54, t355, mul_add(t329, t340, t339));
-    let t375 = neg_mul_add(t52, t355, mul_add(t330, t340, t341));
-    let t376 = neg_mul_add(t56, t355, mul_add(t331, t340, t342));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t377 = mul_add(P::splat(platform_rotation[2][2]), t20, t356);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t378 = w(2.0) * t363;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t379 = mul_add(t311, t319, t294 * t345);
-    // mass matrix of the legs
-    let t380 = mul_sub(t317, t357, t352);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t381 = t18 * P::splat(P::lane(t335, 1));
+    let t370 = mul_add(P::splat(platform_rotation[1][2]), t20, t350);
     // constant and copied elements
-    let t382 =
+    let t371 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t383 =
+    let t372 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t384 = mul_add(t311, t346, t312 * t345);
     // mass matrix of the legs
-    let t385 = t361 * t364;
-    let t386 = mul_sub(t317, t351, t323 * t325);
-    let t387 = mul_sub(t323, t357, t322 * t351);
+    let t373 = mul_sub(t321, t324, t357);
+    let t374 = mul_sub(t318, t326, t324 * t337);
     // second moment of payload and platform-side leg ends
-    let t388 = mul_add(w(0.5), P::splat(t348), t362) - t383;
+    let t375 = mul_add(w(0.5), P::splat(t333), t351) - t372;
     // constant and copied elements
-    let t389 =
+    let t376 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t377 = w(2.0) * (t294 * t320);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t378 = neg_mul_add(t54, t360, mul_add(t330, t343, t342));
+    let t379 = neg_mul_add(t52, t360, mul_add(t331, t343, t344));
+    let t380 = neg_mul_add(t56, t360, mul_add(t332, t343, t345));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t381 = mul_add(P::splat(platform_rotation[2][2]), t20, t361);
+    // second moment of payload and platform-side leg ends
+    let t382 = mul_add(t334 * t335, P::splat(parameters.payload_mass), t355) - t376;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t383 = w(2.0) * t367;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t384 = mul_add(t313, t320, t294 * t348);
+    // mass matrix of the legs
+    let t385 = mul_sub(t318, t362, t357);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t386 = t18 * P::splat(P::lane(t338, 1));
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t387 = mul_add(t313, t349, t314 * t348);
+    // mass matrix of the legs
+    let t388 = t366 * t368;
+    let t389 = mul_sub(t318, t356, t324 * t326);
+    let t390 = mul_sub(t324, t362, t323 * t356);
+    // second moment of payload and platform-side leg ends
+    let t391 = mul_add(P::splat(parameters.payload_mass), t371 * t371, t375);
     // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t390 = mul_sub(t33, t360, t37 * t359);
-    let t391 = mul_sub(t37, t358, t32 * t360);
-    let t392 = mul_sub(t32, t359, t33 * t358);
-    // second moment of payload and platform-side leg ends
-    let t393 = mul_add(t349 * t350, P::splat(parameters.payload_mass), t370) - t389;
+    let t392 = mul_sub(t33, t365, t37 * t364);
+    let t393 = mul_sub(t37, t363, t32 * t365);
+    let t394 = mul_sub(t32, t364, t33 * t363);
+    // first moment of payload and platform-side leg ends
+    let t395 = P::triple([P::lane(t352, 0), P::lane(t353, 0), P::lane(t354, 0)]);
+    let t396 = P::triple([P::lane(t352, 1), P::lane(t353, 1), P::lane(t354, 1)]);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t394 = w(2.0) * (t312 * t346);
+    let t397 = w(2.0) * (t314 * t349);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t395 = t9 * P::splat(P::lane(t335, 1));
+    let t398 = t9 * P::splat(P::lane(t338, 1));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t396 = t18 * P::splat(P::lane(t335, 0));
-    let t397 = neg_mul_add(t20, P::splat(P::lane(t354, 1)), P::splat(P::lane(t123, 1)));
+    let t399 = t18 * P::splat(P::lane(t338, 0));
+    let t400 = neg_mul_add(t20, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t398 = t264 * t374;
-    let t399 = t264 * t375;
-    let t400 = t264 * t376;
+    let t401 = t264 * t378;
+    let t402 = t264 * t379;
+    let t403 = t264 * t380;
     // mass matrix of the legs
-    let t401 = mul_sub(t377, t379, t385);
-    // second moment of payload and platform-side leg ends
-    let t402 = mul_add(P::splat(parameters.payload_mass), t382 * t382, t388);
-    // mass matrix of the legs
-    let t403 = mul_sub(t373, t377, t364 * t366);
-    let t404 = mul_sub(t366, t379, t361 * t373);
-    // first moment of payload and platform-side leg ends
-    let t405 = P::triple([P::lane(t367, 0), P::lane(t368, 0), P::lane(t369, 0)]);
-    let t406 = P::triple([P::lane(t367, 1), P::lane(t368, 1), P::lane(t369, 1)]);
-    // mass matrix of the legs
-    let t407 = mul_sub(t320, t322, t317 * t378);
-    let t408 = mul_sub(t323, t378, t322 * t357);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t409 = t9 * P::splat(P::lane(t335, 0));
-    let t410 = neg_mul_add(t13, P::splat(P::lane(t354, 1)), P::splat(P::lane(t123, 1)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t411 = neg_mul_add(t20, P::splat(P::lane(t354, 0)), P::splat(P::lane(t123, 0)));
-    let t412 = t18 * P::splat(P::lane(t335, 2));
-    // mass matrix of the legs
-    let t413 = mul_add(t377, t401, mul_add(t317, t380, t323 * t365));
-    let t414 = mul_sub(t361, t394, t377 * t384);
+    let t404 = mul_sub(t381, t384, t388);
+    let t405 = mul_sub(t377, t381, t368 * t370);
+    let t406 = mul_sub(t370, t384, t366 * t377);
     // first moments by platform coordinate of the payload's inertia force
-    let t415 = t335 * P::splat(P::lane(t393, 0));
+    let t407 = t338 * P::splat(P::lane(t382, 0));
     // first moment of payload and platform-side leg ends
-    let t416 = P::triple([P::lane(t367, 2), P::lane(t368, 2), P::lane(t369, 2)]);
+    let t408 = P::triple([P::lane(t352, 2), P::lane(t353, 2), P::lane(t354, 2)]);
     // mass matrix of the legs
-    let t417 = mul_sub(t366, t384, t385);
-    let t418 = mul_add(t377, t403, mul_sub(t317, t386, t323 * t372));
-    let t419 = mul_sub(t364, t377, t366 * t394);
-    let t420 = mul_add(t377, t404, mul_sub(t317, t387, t323 * t371));
+    let t409 = mul_sub(t321, t323, t318 * t383);
+    let t410 = mul_sub(t324, t383, t323 * t362);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t421 = neg_mul_add(t13, P::splat(P::lane(t354, 0)), P::splat(P::lane(t123, 0)));
-    let t422 = t9 * P::splat(P::lane(t335, 2));
+    let t411 = t9 * P::splat(P::lane(t338, 0));
+    let t412 = neg_mul_add(t13, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t423 = t411 - mul_add(t19, P::splat(P::lane(t353, 0)), t396);
-    let t424 = t52 * (t397 - mul_add(t19, P::splat(P::lane(t353, 1)), t381));
-    let t425 = neg_mul_add(t20, P::splat(P::lane(t354, 2)), P::splat(P::lane(t123, 2)));
+    let t413 = neg_mul_add(t20, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
+    let t414 = t18 * P::splat(P::lane(t338, 2));
+    // mass matrix of the legs
+    let t415 = mul_add(t381, t404, mul_add(t318, t385, t324 * t369));
+    let t416 = mul_sub(t366, t397, t381 * t387);
+    // first moments by platform coordinate of the payload's inertia force
+    let t417 = mul_add(t358, P::splat(P::lane(t391, 0)), t407);
+    // mass matrix of the legs
+    let t418 = mul_sub(t370, t387, t388);
+    let t419 = mul_add(t381, t405, mul_sub(t318, t389, t324 * t374));
+    let t420 = mul_sub(t368, t381, t370 * t397);
+    let t421 = mul_add(t381, t406, mul_sub(t318, t390, t324 * t373));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t422 = neg_mul_add(t13, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
+    // first moment of payload and platform-side leg ends
+    let t423 = mul_add(P::splat(parameters.payload_mass), t371, t395 + t396 + t408);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t424 = t9 * P::splat(P::lane(t338, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t425 = t413 - mul_add(t19, P::splat(P::lane(t358, 0)), t399);
+    let t426 = t52 * (t400 - mul_add(t19, P::splat(P::lane(t358, 1)), t386));
+    let t427 = neg_mul_add(t20, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
     // moment of the legs' inertia at their joints about the platform origin
-    let t426 = neg_mul_add(t47, t399, mul_add(t36, t400, t390));
-    let t427 = neg_mul_add(t40, t400, mul_add(t47, t398, t391));
-    let t428 = neg_mul_add(t36, t398, mul_add(t40, t399, t392));
+    let t428 = neg_mul_add(t47, t402, mul_add(t36, t403, t392));
+    let t429 = neg_mul_add(t40, t403, mul_add(t47, t401, t393));
+    let t430 = neg_mul_add(t36, t401, mul_add(t40, t402, t394));
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t429 = w(2.0) * (t311 * t345);
+    let t431 = w(2.0) * (t313 * t348);
+    // mass matrix of the legs
+    let t432 = mul_add(t370, t416, t415);
     // first moments by platform coordinate of the payload's inertia force
-    let t430 = mul_add(t353, P::splat(P::lane(t402, 0)), t415);
+    let t433 = mul_add(t359, P::splat(P::lane(t382, 2)), t417);
     // mass matrix of the legs
-    let t431 = mul_add(t366, t414, t413);
-    // first moment of payload and platform-side leg ends
-    let t432 = mul_add(P::splat(parameters.payload_mass), t382, t405 + t406 + t416);
-    // mass matrix of the legs
-    let t433 = neg_mul_add(t366, t419, t418);
-    let t434 = neg_mul_add(t366, t417, t420);
+    let t434 = neg_mul_add(t370, t420, t419);
+    let t435 = neg_mul_add(t370, t418, t421);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t435 = t421 - mul_add(t12, P::splat(P::lane(t353, 0)), t409);
-    let t436 = t39 * (t410 - mul_add(t12, P::splat(P::lane(t353, 1)), t395));
-    let t437 = neg_mul_add(t13, P::splat(P::lane(t354, 2)), P::splat(P::lane(t123, 2)));
+    let t436 = t422 - mul_add(t12, P::splat(P::lane(t358, 0)), t411);
+    let t437 = t39 * (t412 - mul_add(t12, P::splat(P::lane(t358, 1)), t398));
+    let t438 = neg_mul_add(t13, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
     // constant and copied elements
-    let t438 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
     let t439 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t440 =
         P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t440 = t425 - mul_add(t19, P::splat(P::lane(t353, 2)), t412);
-    // mass matrix of the legs
-    let t441 = mul_add(w(2.0), t363, t429);
     // first moments by platform coordinate of the payload's inertia force
-    let t442 = mul_add(t354, P::splat(P::lane(t393, 2)), t430);
+    let t441 = t338 * P::splat(P::lane(t391, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t442 = t427 - mul_add(t19, P::splat(P::lane(t358, 2)), t414);
     // mass matrix of the legs
-    let t443 = t357 + t379;
-    let t444 = t320 + t384;
+    let t443 = mul_add(w(2.0), t367, t431);
+    let t444 = t362 + t384;
+    let t445 = t321 + t387;
     // constant and copied elements
-    let t445 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
     let t446 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
     let t447 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t448 =
         P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t448 = t335 * P::splat(P::lane(t402, 1));
+    let t449 = mul_sub(t127, P::splat(P::lane(t423, 0)), t433);
+    let t450 = mul_add(t358, P::splat(P::lane(t382, 0)), t441);
     // mass matrix of the legs
-    let t449 = mul_add(t361, t414, mul_sub(t322, t365, t317 * t407));
-    let t450 = mul_sub(t361, t384, t377 * t429);
-    let t451 = mul_add(t361, t417, mul_sub(t322, t371, t317 * t408));
-    let t452 = mul_sub(t366, t429, t361 * t379);
+    let t451 = mul_add(t366, t416, mul_sub(t323, t369, t318 * t409));
+    let t452 = mul_sub(t366, t387, t381 * t431);
+    let t453 = mul_add(t366, t418, mul_sub(t323, t373, t318 * t410));
+    let t454 = mul_sub(t370, t431, t366 * t384);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t453 = t437 - mul_add(t12, P::splat(P::lane(t353, 2)), t422);
+    let t455 = t438 - mul_add(t12, P::splat(P::lane(t358, 2)), t424);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t454 = mul_add(t56, t440, mul_add(t54, t423, t424));
+    let t456 = mul_add(t56, t442, mul_add(t54, t425, t426));
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t455 = mul_add(t218 - t438, t447, t274 * t439);
+    let t457 = mul_add(t220 - t439, t448, t274 * t440);
     // mass of payload and platform-side leg ends
-    let t456 = t129 + t135;
+    let t458 = t121 + t130;
     // moment of the legs' inertia at their joints about the platform origin
-    let t457 = P::triple([P::lane(t426, 0), P::lane(t427, 0), P::lane(t428, 0)]);
-    let t458 = P::triple([P::lane(t426, 1), P::lane(t427, 1), P::lane(t428, 1)]);
+    let t459 = P::triple([P::lane(t428, 0), P::lane(t429, 0), P::lane(t430, 0)]);
+    let t460 = P::triple([P::lane(t428, 1), P::lane(t429, 1), P::lane(t430, 1)]);
     // constant and copied elements
-    let t459 =
+    let t461 =
         P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
     // inertia force less weight, without the actuators' own shares
-    let t460 = mul_add(t203, t336, t398);
-    let t461 = mul_add(t203, t337, t399);
-    let t462 = mul_add(t203, t338, t400);
-    // first moments by platform coordinate of the payload's inertia force
-    let t463 = mul_sub(t123, P::splat(P::lane(t432, 0)), t442);
-    let t464 = mul_add(t353, P::splat(P::lane(t393, 0)), t448);
+    let t462 = mul_add(t205, t339, t401);
+    let t463 = mul_add(t205, t340, t402);
+    let t464 = mul_add(t205, t341, t403);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t465 = mul_add(t51, t453, mul_add(t44, t435, t436));
+    let t465 = mul_add(t51, t455, mul_add(t44, t436, t437));
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t466 = mul_add(t177 - t445, t459, t212 * t446);
-    // mass matrix of the legs
-    let t467 = neg_mul_add(t377, t450, t449);
-    let t468 = neg_mul_add(t377, t452, t451);
-    let t469 = P::triple([P::lane(t433, 0), -P::lane(t431, 0), P::lane(t434, 0)]);
-    let t470 = P::triple([P::lane(t433, 1), -P::lane(t431, 1), P::lane(t434, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t471 = mul_add(t56, t376, mul_add(t54, t374, t52 * t375));
-    let t472 = mul_add(t331, t331, mul_add(t329, t329, t330 * t330));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t473 = P::triple([P::lane(t426, 2), P::lane(t427, 2), P::lane(t428, 2)]);
-    let t474 = t457 + t458 + t473;
-    // mass matrix of the legs
-    let t475 = mul_add(w(2.0), t333, t373);
-    let t476 = P::triple([P::lane(t441, 0), P::lane(t443, 0), P::lane(t444, 0)]);
-    let t477 = P::triple([P::lane(t441, 1), P::lane(t443, 1), P::lane(t444, 1)]);
-    // mass matrix M_p of the platform
-    let t478 = t386 + t403;
+    let t466 = mul_add(t178 - t446, t461, t214 * t447);
     // first moments by platform coordinate of the payload's inertia force
-    let t479 = mul_add(t354, P::splat(P::lane(t393, 1)), t464);
+    let t467 = mul_add(t359, P::splat(P::lane(t382, 1)), t450);
+    // mass matrix of the legs
+    let t468 = neg_mul_add(t381, t452, t451);
+    let t469 = neg_mul_add(t381, t454, t453);
+    let t470 = P::triple([P::lane(t434, 0), -P::lane(t432, 0), P::lane(t435, 0)]);
+    let t471 = P::triple([P::lane(t434, 1), -P::lane(t432, 1), P::lane(t435, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t472 = mul_add(t56, t380, mul_add(t54, t378, t52 * t379));
+    let t473 = mul_add(t332, t332, mul_add(t330, t330, t331 * t331));
+    // first moments by platform coordinate of the payload's inertia force
+    let t474 = t338 * P::splat(P::lane(t382, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t475 = P::triple([P::lane(t428, 2), P::lane(t429, 2), P::lane(t430, 2)]);
+    let t476 = t459 + t460 + t475;
+    // mass matrix of the legs
+    let t477 = mul_add(w(2.0), t336, t377);
+    let t478 = P::triple([P::lane(t443, 0), P::lane(t444, 0), P::lane(t445, 0)]);
+    let t479 = P::triple([P::lane(t443, 1), P::lane(t444, 1), P::lane(t445, 1)]);
+    // mass matrix M_p of the platform
+    let t480 = t389 + t405;
     // constant and copied elements
-    let t480 =
+    let t481 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t481 = mul_add(t377, t379, mul_sub(t317, t357, t320 * t323));
-    let t482 = t325 + t364;
-    let t483 = P::triple([P::lane(t433, 2), -P::lane(t431, 2), P::lane(t434, 2)]);
+    let t482 = mul_add(t381, t384, mul_sub(t318, t362, t321 * t324));
+    let t483 = t326 + t368;
+    let t484 = P::triple([P::lane(t434, 2), -P::lane(t432, 2), P::lane(t435, 2)]);
     // mass matrix M_p of the platform
-    let t484 = t387 + t404;
+    let t485 = t390 + t406;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t485 = mul_add(t51, t338, mul_add(t44, t336, t39 * t337));
-    let t486 = mul_add(t280, t280, mul_add(t278, t278, t279 * t279));
+    let t486 = mul_add(t51, t341, mul_add(t44, t339, t39 * t340));
+    let t487 = mul_add(t280, t280, mul_add(t278, t278, t279 * t279));
     // constant and copied elements
-    let t487 =
+    let t488 =
         P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t488 = t335 * P::splat(P::lane(t393, 1));
+    let t489 = mul_sub(t127, P::splat(P::lane(t423, 1)), t467);
+    let t490 = mul_add(t358, P::splat(P::lane(t382, 2)), t474);
+    let t491 = P::triple([P::lane(t449, 2), P::lane(t449, 0), P::lane(t449, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t489 = P::splat(parameters.payload_com[1]) * t480;
+    let t492 = P::splat(parameters.payload_com[1]) * t481;
     // mass matrix of the legs
-    let t490 = mul_add(t366, t452, mul_sub(t323, t408, t322 * t387));
-    let t491 = t469 + t470 + t483;
+    let t493 = mul_add(t370, t454, mul_sub(t324, t410, t323 * t390));
+    let t494 = t470 + t471 + t484;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t492 = mul_add(t472, t487, t471);
+    let t495 = mul_add(t473, t488, t472);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t493 = mul_add(t233, t471, mul_add(t264, t454, t455));
+    let t496 = mul_add(t236, t472, mul_add(t264, t456, t457));
     // mass matrix M_p of the platform
-    let t494 = platform_rotation[2][1] * P::lane(t432, 1);
+    let t497 = platform_rotation[2][1] * P::lane(t423, 1);
     // mass matrix of the legs
-    let t495 = P::triple([P::lane(t441, 2), P::lane(t443, 2), P::lane(t444, 2)]);
+    let t498 = P::triple([P::lane(t443, 2), P::lane(t444, 2), P::lane(t445, 2)]);
     // mass matrix M_p of the platform
-    let t496 = t408 + t452;
-    let t497 = t365 + t414;
-    let t498 = platform_rotation[0][1] * P::lane(t432, 1);
+    let t499 = t410 + t454;
+    let t500 = t369 + t416;
+    let t501 = platform_rotation[0][1] * P::lane(t423, 1);
     // constant and copied elements
-    let t499 =
+    let t502 =
         P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
     // mass matrix of the legs
-    let t500 = t380 + t401;
-    let t501 = t476 + t477 + t495;
+    let t503 = t385 + t404;
+    let t504 = t478 + t479 + t498;
     // mass matrix M_p of the platform
-    let t502 = t407 + t450;
-    let t503 = t372 + t419;
+    let t505 = t409 + t452;
+    let t506 = t374 + t420;
     // constant and copied elements
-    let t504 =
+    let t507 =
         P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
     // inertia force less weight, without the actuators' own shares
-    let t505 = P::triple([P::lane(t460, 0), P::lane(t461, 0), P::lane(t462, 0)]);
-    let t506 = P::triple([P::lane(t460, 1), P::lane(t461, 1), P::lane(t462, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t507 = mul_sub(t123, P::splat(P::lane(t432, 1)), t479);
-    let t508 = mul_add(t353, P::splat(P::lane(t393, 2)), t488);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t509 = P::mul_add(P::lane(t15, 1), P::lane(t463, 2), P::lane(t474, 0));
+    let t508 = P::triple([P::lane(t462, 0), P::lane(t463, 0), P::lane(t464, 0)]);
+    let t509 = P::triple([P::lane(t462, 1), P::lane(t463, 1), P::lane(t464, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t510 = mul_add(P::splat(parameters.payload_com[0]), t499, t489);
+    let t510 = mul_add(P::splat(parameters.payload_com[0]), t502, t492);
     // mass matrix of the legs
-    let t511 = neg_mul_add(t366, t384, t481);
+    let t511 = neg_mul_add(t370, t387, t482);
     // mass of payload and platform-side leg ends
-    let t512 = P::lane(t456, 2) + (P::lane(t456, 1) + P::lane(t456, 0));
+    let t512 = P::lane(t458, 2) + (P::lane(t458, 1) + P::lane(t458, 0));
     // mass matrix M_p of the platform
-    let t513 = platform_rotation[0][1] * P::lane(t393, 0);
+    let t513 = platform_rotation[0][1] * P::lane(t382, 0);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t514 = mul_add(t486, t504, t485);
+    let t514 = mul_add(t487, t507, t486);
+    // first moments by platform coordinate of the payload's inertia force
+    let t515 = mul_add(t359, P::splat(P::lane(t391, 2)), t490);
+    // rotation of the platform seen from the base
+    let t516 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t517 = P::triple([P::lane(t449, 1), P::lane(t449, 2), P::lane(t449, 0)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t515 = mul_add(t187, t485, mul_add(t203, t465, t466));
+    let t518 = mul_add(t189, t486, mul_add(t205, t465, t466));
     // mass matrix M_p of the platform
-    let t516 = P::mul_add(platform_rotation[2][0], P::lane(t432, 0), t494);
-    let t517 = platform_rotation[1][1] * P::lane(t432, 1);
+    let t519 = P::mul_add(platform_rotation[2][0], P::lane(t423, 0), t497);
+    let t520 = platform_rotation[1][1] * P::lane(t423, 1);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t518 = mul_sub(t312, t366, t294 * t377);
-    let t519 = mul_sub(t311, t377, t312 * t361);
-    let t520 = mul_sub(t294, t361, t311 * t366);
+    let t521 = mul_sub(t314, t370, t294 * t381);
+    let t522 = mul_sub(t313, t381, t314 * t366);
+    let t523 = mul_sub(t294, t366, t313 * t370);
     // mass matrix of the legs
-    let t521 = t371 + t417;
-    let t522 = neg_mul_add(t361, t404, t490);
-    let t523 = P::lane(t468, 1) + P::lane(t468, 0);
+    let t524 = t373 + t418;
+    let t525 = neg_mul_add(t366, t406, t493);
+    let t526 = P::lane(t469, 1) + P::lane(t469, 0);
+    // moment of the inertia force about the platform origin
+    let t527 = neg_mul_add(t516, t517, mul_add(t261, t491, t476));
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t524 = mul_add(t265, t492, t493);
+    let t528 = mul_add(t265, t495, t496);
     // mass matrix M_p of the platform
-    let t525 = P::mul_add(platform_rotation[0][0], P::lane(t432, 0), t498);
+    let t529 = P::mul_add(platform_rotation[0][0], P::lane(t423, 0), t501);
     // inertia force less weight, without the actuators' own shares
-    let t526 = P::triple([P::lane(t460, 2), P::lane(t461, 2), P::lane(t462, 2)]);
+    let t530 = P::triple([P::lane(t462, 2), P::lane(t463, 2), P::lane(t464, 2)]);
     // constant and copied elements
-    let t527 =
+    let t531 =
         P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // mass matrix of the legs
-    let t528 = mul_add(w(2.0), t315, t394);
-    let t529 = P::lane(t482, 1) + P::lane(t482, 0);
+    let t532 = mul_add(w(2.0), t316, t397);
+    let t533 = P::lane(t483, 1) + P::lane(t483, 0);
     // mass of payload and platform-side leg ends
-    let t530 = parameters.payload_mass + t512;
+    let t534 = parameters.payload_mass + t512;
     // mass matrix M_p of the platform
-    let t531 = P::mul_add(platform_rotation[0][0], P::lane(t402, 0), t513);
+    let t535 = P::mul_add(platform_rotation[0][0], P::lane(t391, 0), t513);
     // constant and copied elements
-    let t532 =
+    let t536 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t533 = mul_add(t354, P::splat(P::lane(t402, 2)), t508);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t534 = P::mul_add(P::lane(t15, 2), P::lane(t463, 0), P::lane(t474, 1));
-    let t535 = P::neg_mul_add(P::lane(t15, 2), P::lane(t463, 1), t509);
     // mass matrix M_p of the platform
-    let t536 = P::mul_add(platform_rotation[1][0], P::lane(t432, 0), t517);
+    let t537 = P::mul_add(platform_rotation[1][0], P::lane(t423, 0), t520);
     // inertia less external wrench that the actuators must balance
-    let t537 = mul_add(P::splat(parameters.payload_com[2]), t527, t510);
+    let t538 = mul_add(P::splat(parameters.payload_com[2]), t531, t510);
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t538 = mul_sub(t240, t323, t232 * t317);
-    let t539 = mul_sub(t224, t317, t240 * t322);
-    let t540 = mul_sub(t232, t322, t224 * t323);
+    let t539 = mul_sub(t243, t324, t235 * t318);
+    let t540 = mul_sub(t226, t318, t243 * t323);
+    let t541 = mul_sub(t235, t323, t226 * t324);
     // mass matrix of the legs
-    let t541 = P::triple([P::lane(t491, 1), P::lane(t467, 2), P::lane(t468, 2)]);
-    let t542 = P::triple([c(0.0), P::lane(t467, 1) + P::lane(t467, 0), t523]);
+    let t542 = P::triple([P::lane(t494, 1), P::lane(t468, 2), P::lane(t469, 2)]);
+    let t543 = P::triple([c(0.0), P::lane(t468, 1) + P::lane(t468, 0), t526]);
     // mass matrix M_p of the platform
-    let t543 = P::lane(t402, 2) + (P::lane(t402, 0) + P::lane(t402, 1));
-    let t544 = platform_rotation[0][1] * P::lane(t402, 1);
-    let t545 = P::splat(P::lane(t393, 0)) * t532;
+    let t544 = P::lane(t391, 2) + (P::lane(t391, 0) + P::lane(t391, 1));
+    let t545 = platform_rotation[0][1] * P::lane(t391, 1);
+    let t546 = P::splat(P::lane(t382, 0)) * t536;
+    // first moments by platform coordinate of the payload's inertia force
+    let t547 = mul_sub(t127, P::splat(P::lane(t423, 2)), t515);
+    let t548 = P::triple([P::lane(t489, 2), P::lane(t489, 0), P::lane(t489, 1)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t546 = mul_add(t204, t514, t515);
+    let t549 = mul_add(t206, t514, t518);
     // mass matrix M_p of the platform
-    let t547 = P::mul_add(platform_rotation[2][2], P::lane(t432, 2), t516);
+    let t550 = P::mul_add(platform_rotation[2][2], P::lane(t423, 2), t519);
     // mass matrix of the legs
-    let t548 = t541 + t542;
+    let t551 = t542 + t543;
     // mass matrix M_p of the platform
-    let t549 = P::mul_add(platform_rotation[0][2], P::lane(t432, 2), t525);
+    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t423, 2), t529);
     // mass matrix of the legs
-    let t550 = P::triple([P::lane(t501, 1), P::lane(t475, 2), P::lane(t482, 2)]);
-    let t551 = P::triple([c(0.0), P::lane(t475, 1) + P::lane(t475, 0), t529]);
+    let t553 = P::triple([P::lane(t504, 1), P::lane(t477, 2), P::lane(t483, 2)]);
+    let t554 = P::triple([c(0.0), P::lane(t477, 1) + P::lane(t477, 0), t533]);
     // constant and copied elements
-    let t552 =
+    let t555 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t553 = mul_add(t123, P::splat(t530), t505 + t506 + t526);
+    let t556 = mul_add(t127, P::splat(t534), t508 + t509 + t530);
     // mass matrix of the legs
-    let t554 = t550 + t551;
+    let t557 = t553 + t554;
     // mass matrix M_p of the platform
-    let t555 = P::mul_add(platform_rotation[0][2], P::lane(t393, 2), t531);
+    let t558 = P::mul_add(platform_rotation[0][2], P::lane(t382, 2), t535);
     // constant and copied elements
-    let t556 =
+    let t559 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t557 = P::mul_add(platform_rotation[0][0], P::lane(t393, 0), t544);
-    let t558 = mul_add(P::splat(P::lane(t402, 0)), t552, t545);
+    let t560 = P::mul_add(platform_rotation[0][0], P::lane(t382, 0), t545);
+    let t561 = mul_add(P::splat(P::lane(t391, 0)), t555, t546);
+    let t562 = P::mul_add(platform_rotation[1][2], P::lane(t423, 2), t537);
+    // constant and copied elements
+    let t563 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t564 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t565 = t494 + P::triple([t544, c(0.0), c(0.0)]);
+    let t566 = platform_rotation[0][1] * P::lane(t382, 1);
+    let t567 = P::splat(P::lane(t391, 1)) * t536;
+    let t568 = P::splat(P::lane(t382, 0)) * t559;
+    // rotation of the platform seen from the base
+    let t569 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t559 = mul_sub(t123, P::splat(P::lane(t432, 2)), t533);
+    let t570 = P::triple([P::lane(t489, 1), P::lane(t489, 2), P::lane(t489, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t560 = P::mul_add(P::lane(t15, 0), P::lane(t463, 1), P::lane(t474, 2));
-    let t561 = P::neg_mul_add(P::lane(t15, 0), P::lane(t463, 2), t534);
-    let t562 = P::mul_add(P::lane(t14, 1), P::lane(t507, 2), t535);
-    // mass matrix M_p of the platform
-    let t563 = P::mul_add(platform_rotation[1][2], P::lane(t432, 2), t536);
-    // constant and copied elements
-    let t564 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t565 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t566 = t491 + P::triple([t543, c(0.0), c(0.0)]);
-    let t567 = platform_rotation[0][1] * P::lane(t393, 1);
-    let t568 = P::splat(P::lane(t402, 1)) * t532;
-    let t569 = P::splat(P::lane(t393, 0)) * t556;
+    let t571 = mul_add(t539, t549, t521 * t528);
+    let t572 = mul_add(t540, t549, t522 * t528);
+    let t573 = mul_add(t541, t549, t523 * t528);
+    // moment of the inertia force about the platform origin
+    let t574 = neg_mul_add(t569, t570, mul_add(t233, t548, t527));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t570 = mul_add(t538, t546, t518 * t524);
-    let t571 = mul_add(t539, t546, t519 * t524);
-    let t572 = mul_add(t540, t546, t520 * t524);
-    let t573 = mul_add(t224, t546, t311 * t524);
-    let t574 = mul_add(t232, t546, t294 * t524);
-    let t575 = mul_add(t240, t546, t312 * t524);
+    let t575 = mul_add(t226, t549, t313 * t528);
+    let t576 = mul_add(t235, t549, t294 * t528);
+    let t577 = mul_add(t243, t549, t314 * t528);
     // mass matrix of the legs
-    let t576 = P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0));
-    mass_matrix_p[1][4] = t576;
-    mass_matrix_p[4][1] = t576;
+    let t578 = P::lane(t503, 2) + (P::lane(t503, 1) + P::lane(t503, 0));
+    mass_matrix_p[1][4] = t578;
+    mass_matrix_p[4][1] = t578;
     // mass matrix M_p of the platform
-    let t577 = t549 - (P::lane(t484, 2) + (P::lane(t484, 1) + P::lane(t484, 0)));
-    mass_matrix_p[1][5] = t577;
-    mass_matrix_p[5][1] = t577;
-    let t578 = P::triple([c(0.0), t530, c(0.0)]);
+    let t579 = t552 - (P::lane(t485, 2) + (P::lane(t485, 1) + P::lane(t485, 0)));
+    mass_matrix_p[1][5] = t579;
+    mass_matrix_p[5][1] = t579;
+    let t580 = P::triple([c(0.0), t534, c(0.0)]);
     // constant and copied elements
-    let t579 =
+    let t581 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t580 =
+    let t582 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // inertia force less weight, without the actuators' own shares
-    let t581 = mul_sub(t353, P::splat(P::lane(t432, 0)), t553);
+    let t583 = mul_sub(t358, P::splat(P::lane(t423, 0)), t556);
     // mass matrix of the legs
-    let t582 = t554 + t578;
+    let t584 = t557 + t580;
     // mass matrix M_p of the platform
-    let t583 = neg_mul_add(P::splat(t555), t579, t566);
-    let t584 = P::mul_add(platform_rotation[0][2], P::lane(t393, 1), t557);
-    let t585 = P::mul_add(platform_rotation[0][0], P::lane(t393, 2), t567);
-    let t586 = P::triple([c(0.0), t543, c(0.0)]);
-    let t587 = mul_add(P::splat(P::lane(t393, 2)), t580, t558);
-    let t588 = mul_add(P::splat(P::lane(t393, 0)), t552, t568);
-    let t589 = mul_add(P::splat(P::lane(t402, 0)), t579, t569);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t590 = P::neg_mul_add(P::lane(t15, 1), P::lane(t463, 0), t560);
-    let t591 = P::mul_add(P::lane(t14, 2), P::lane(t507, 0), t561);
-    let t592 = P::neg_mul_add(P::lane(t14, 2), P::lane(t507, 1), t562);
-    // mass matrix M_p of the platform
-    let t593 = -(t547 + (P::lane(t478, 2) + (P::lane(t478, 1) + P::lane(t478, 0))));
-    mass_matrix_p[1][3] = t593;
-    mass_matrix_p[3][1] = t593;
+    let t585 = neg_mul_add(P::splat(t558), t581, t565);
+    let t586 = P::mul_add(platform_rotation[0][2], P::lane(t382, 1), t560);
+    let t587 = P::mul_add(platform_rotation[0][0], P::lane(t382, 2), t566);
+    let t588 = P::triple([c(0.0), t544, c(0.0)]);
+    let t589 = mul_add(P::splat(P::lane(t382, 2)), t582, t561);
+    let t590 = mul_add(P::splat(P::lane(t382, 0)), t555, t567);
+    let t591 = mul_add(P::splat(P::lane(t391, 0)), t581, t568);
+    let t592 = -(t550 + (P::lane(t480, 2) + (P::lane(t480, 1) + P::lane(t480, 0))));
+    mass_matrix_p[1][3] = t592;
+    mass_matrix_p[3][1] = t592;
     // constant and copied elements
-    let t594 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t593 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t595 = P::triple([P::lane(t537, 1), P::lane(t537, 2), P::lane(t537, 0)]);
+    let t594 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
     // mass matrix of the legs
-    let t596 = P::triple([P::lane(t491, 2), P::lane(t548, 2), P::lane(t522, 2)]);
-    let t597 = P::triple([c(0.0), c(0.0), P::lane(t522, 1) + P::lane(t522, 0)]);
-    let t598 = t548 + t586;
+    let t595 = P::triple([P::lane(t494, 2), P::lane(t551, 2), P::lane(t525, 2)]);
+    let t596 = P::triple([c(0.0), c(0.0), P::lane(t525, 1) + P::lane(t525, 0)]);
+    let t597 = t551 + t588;
     // mass matrix M_p of the platform
-    let t599 = P::splat(P::lane(t393, 1)) * t532;
-    let t600 = P::splat(P::lane(t402, 1)) * t556;
-    let t601 = t563 - (P::lane(t503, 2) + (P::lane(t503, 1) + P::lane(t503, 0)));
+    let t598 = P::splat(P::lane(t382, 1)) * t536;
+    let t599 = P::splat(P::lane(t391, 1)) * t559;
+    // first moments by platform coordinate of the payload's inertia force
+    let t600 = P::triple([P::lane(t547, 2), P::lane(t547, 0), P::lane(t547, 1)]);
+    // mass matrix M_p of the platform
+    let t601 = t562 - (P::lane(t506, 2) + (P::lane(t506, 1) + P::lane(t506, 0)));
     mass_matrix_p[2][3] = t601;
     mass_matrix_p[3][2] = t601;
-    let t602 = t547 - (P::lane(t502, 2) + (P::lane(t502, 1) + P::lane(t502, 0)));
+    let t602 = t550 - (P::lane(t505, 2) + (P::lane(t505, 1) + P::lane(t505, 0)));
     mass_matrix_p[0][4] = t602;
     mass_matrix_p[4][0] = t602;
-    let t603 = P::triple([t593, t576, t577]);
+    let t603 = P::triple([t592, t578, t579]);
     // inertia less external wrench that the actuators must balance
-    let t604 = neg_mul_add(t594, t595, mul_add(t537, t565, t564));
+    let t604 = neg_mul_add(t593, t594, mul_add(t538, t564, t563));
     // mass of payload and platform-side leg ends
-    let t605 = P::triple([t530, c(0.0), c(0.0)]);
+    let t605 = P::triple([t534, c(0.0), c(0.0)]);
     // inertia less external wrench that the actuators must balance
     let t606 = t603 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t607 = P::triple([P::lane(t501, 2), P::lane(t554, 2), P::lane(t528, 2)]);
-    let t608 = P::triple([c(0.0), c(0.0), P::lane(t528, 1) + P::lane(t528, 0)]);
+    let t607 = P::triple([P::lane(t504, 2), P::lane(t557, 2), P::lane(t532, 2)]);
+    let t608 = P::triple([c(0.0), c(0.0), P::lane(t532, 1) + P::lane(t532, 0)]);
     // mass matrix M_p of the platform
-    let t609 = t501 + t605;
+    let t609 = t504 + t605;
     // constant and copied elements
     let t610 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
     let t611 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t612 = mul_add(t335, P::splat(P::lane(t432, 1)), t581);
+    let t612 = mul_add(t338, P::splat(P::lane(t423, 1)), t583);
     // inertia less external wrench that the actuators must balance
-    let t613 = t582 * P::splat(platform_acceleration[1]);
+    let t613 = t584 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
     let t614 = -(P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0)));
     mass_matrix_p[0][3] = t614;
     mass_matrix_p[3][0] = t614;
     // mass matrix M_p of the platform
-    let t615 = -(t549 + (P::lane(t497, 2) + (P::lane(t497, 1) + P::lane(t497, 0))));
+    let t615 = -(t552 + (P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0))));
     mass_matrix_p[2][4] = t615;
     mass_matrix_p[4][2] = t615;
-    let t616 = -(t563 + (P::lane(t496, 2) + (P::lane(t496, 1) + P::lane(t496, 0))));
+    let t616 = -(t562 + (P::lane(t499, 2) + (P::lane(t499, 1) + P::lane(t499, 0))));
     mass_matrix_p[0][5] = t616;
     mass_matrix_p[5][0] = t616;
     // mass matrix of the legs
-    let t617 = -(P::lane(t521, 2) + (P::lane(t521, 1) + P::lane(t521, 0)));
+    let t617 = -(P::lane(t524, 2) + (P::lane(t524, 1) + P::lane(t524, 0)));
     mass_matrix_p[2][5] = t617;
     mass_matrix_p[5][2] = t617;
     // mass matrix M_p of the platform
-    let t618 = neg_mul_add(t556, P::splat(t584), t583);
-    let t619 = P::mul_add(platform_rotation[0][2], P::lane(t402, 2), t585);
-    let t620 = mul_add(P::splat(P::lane(t393, 1)), t580, t588);
-    let t621 = mul_add(P::splat(P::lane(t393, 2)), t552, t599);
-    let t622 = P::triple([c(0.0), c(0.0), t543]);
-    let t623 = mul_add(P::splat(P::lane(t393, 2)), t610, t589);
-    let t624 = mul_add(P::splat(P::lane(t393, 0)), t579, t600);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t625 = P::mul_add(P::lane(t14, 0), P::lane(t507, 1), t590);
-    let t626 = P::neg_mul_add(P::lane(t14, 0), P::lane(t507, 2), t591);
-    let t627 = P::mul_add(P::lane(t17, 1), P::lane(t559, 2), t592);
+    let t618 = neg_mul_add(t559, P::splat(t586), t585);
+    let t619 = P::mul_add(platform_rotation[0][2], P::lane(t391, 2), t587);
+    let t620 = mul_add(P::splat(P::lane(t382, 1)), t582, t590);
+    let t621 = mul_add(P::splat(P::lane(t382, 2)), t555, t598);
+    let t622 = P::triple([c(0.0), c(0.0), t544]);
+    let t623 = mul_add(P::splat(P::lane(t382, 2)), t610, t591);
+    let t624 = mul_add(P::splat(P::lane(t382, 0)), t581, t599);
     // mass matrix of the legs
-    let t628 = P::triple([t614, t602, t616]);
+    let t625 = P::triple([t614, t602, t616]);
     // mass matrix M_p of the platform
-    let t629 = P::triple([t601, t615, t617]);
+    let t626 = P::triple([t601, t615, t617]);
     // mass matrix of the legs
-    let t630 = t596 + t597 + t622;
+    let t627 = t595 + t596 + t622;
     // mass matrix M_p of the platform
-    let t631 = P::splat(P::lane(t393, 1)) * t556;
+    let t628 = P::splat(P::lane(t382, 1)) * t559;
+    // rotation of the platform seen from the base
+    let t629 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t630 = P::triple([P::lane(t547, 1), P::lane(t547, 2), P::lane(t547, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t632 = P::triple([P::lane(t570, 0), P::lane(t571, 0), P::lane(t572, 0)]);
-    let t633 = P::triple([P::lane(t570, 1), P::lane(t571, 1), P::lane(t572, 1)]);
+    let t631 = P::triple([P::lane(t571, 0), P::lane(t572, 0), P::lane(t573, 0)]);
+    let t632 = P::triple([P::lane(t571, 1), P::lane(t572, 1), P::lane(t573, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t634 = neg_mul_add(t629, P::splat(platform_acceleration[2]), t604);
+    let t633 = neg_mul_add(t626, P::splat(platform_acceleration[2]), t604);
+    // moment of the inertia force about the platform origin
+    let t634 = neg_mul_add(t629, t630, mul_add(t262, t600, t574));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t635 = P::triple([P::lane(t573, 0), P::lane(t574, 0), P::lane(t575, 0)]);
-    let t636 = P::triple([P::lane(t573, 1), P::lane(t574, 1), P::lane(t575, 1)]);
+    let t635 = P::triple([P::lane(t575, 0), P::lane(t576, 0), P::lane(t577, 0)]);
+    let t636 = P::triple([P::lane(t575, 1), P::lane(t576, 1), P::lane(t577, 1)]);
     // inertia less external wrench that the actuators must balance
     let t637 = mul_add(t609, P::splat(platform_acceleration[0]), t613);
     // mass matrix of the legs
-    let t638 = t607 + t608 + P::triple([c(0.0), c(0.0), t530]);
+    let t638 = t607 + t608 + P::triple([c(0.0), c(0.0), t534]);
     // constant and copied elements
     let t639 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // inertia force less weight, without the actuators' own shares
-    let t640 = mul_add(t354, P::splat(P::lane(t432, 2)), t612);
+    let t640 = mul_add(t359, P::splat(P::lane(t423, 2)), t612);
     // mass matrix M_p of the platform
     let t641 = neg_mul_add(t610, P::splat(t619), t618);
-    let t642 = neg_mul_add(t620, t639, neg_mul_add(t587, t611, t598));
-    let t643 = mul_add(P::splat(P::lane(t402, 2)), t580, t621);
-    let t644 = neg_mul_add(P::splat(platform_rotation[2][0]), t623, t630);
-    let t645 = mul_add(P::splat(P::lane(t393, 1)), t610, t624);
-    let t646 = mul_add(P::splat(P::lane(t393, 2)), t579, t631);
+    let t642 = neg_mul_add(t620, t639, neg_mul_add(t589, t611, t597));
+    let t643 = mul_add(P::splat(P::lane(t391, 2)), t582, t621);
+    let t644 = neg_mul_add(P::splat(platform_rotation[2][0]), t623, t627);
+    let t645 = mul_add(P::splat(P::lane(t382, 1)), t610, t624);
+    let t646 = mul_add(P::splat(P::lane(t382, 2)), t581, t628);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t647 = P::triple([P::lane(t570, 2), P::lane(t571, 2), P::lane(t572, 2)]);
-    let t648 = P::neg_mul_add(P::lane(t14, 1), P::lane(t507, 0), t625);
-    let t649 = P::mul_add(P::lane(t17, 2), P::lane(t559, 0), t626);
-    let t650 = P::neg_mul_add(P::lane(t17, 2), P::lane(t559, 1), t627);
-    let t651 = P::triple([P::lane(t573, 2), P::lane(t574, 2), P::lane(t575, 2)]);
+    let t647 = P::triple([P::lane(t571, 2), P::lane(t572, 2), P::lane(t573, 2)]);
+    let t648 = P::triple([P::lane(t575, 2), P::lane(t576, 2), P::lane(t577, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t652 = t634 - mul_add(t628, P::splat(platform_acceleration[0]), t606);
-    let t653 = mul_add(P::splat(platform_acceleration[2]), t638, t637);
+    let t649 = t633 - mul_add(t625, P::splat(platform_acceleration[0]), t606);
+    let t650 = mul_add(P::splat(platform_acceleration[2]), t638, t637);
     // constant and copied elements
-    let t654 =
+    let t651 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t655 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t652 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t656 = neg_mul_add(t643, t654, t642);
-    let t657 = neg_mul_add(P::splat(platform_rotation[2][1]), t645, t644);
-    let t658 = mul_add(P::splat(P::lane(t402, 2)), t610, t646);
+    let t653 = neg_mul_add(t643, t651, t642);
+    let t654 = neg_mul_add(P::splat(platform_rotation[2][1]), t645, t644);
+    let t655 = mul_add(P::splat(P::lane(t391, 2)), t610, t646);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t659 = P::mul_add(P::lane(t17, 0), P::lane(t559, 1), t648);
-    let t660 = P::neg_mul_add(P::lane(t17, 0), P::lane(t559, 2), t649);
-    let t661 = neg_mul_add(P::splat(t650), t655, t632 + t633 + t647);
+    let t656 = neg_mul_add(P::splat(P::lane(t634, 0)), t652, t631 + t632 + t647);
     // inertia less external wrench that the actuators must balance
-    let t662 = neg_mul_add(t641, P::splat(platform_acceleration[3]), t652);
+    let t657 = neg_mul_add(t641, P::splat(platform_acceleration[3]), t649);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t663 = mul_add(t655, P::splat(P::lane(t640, 0)), t635 + t636 + t651);
+    let t658 = mul_add(t652, P::splat(P::lane(t640, 0)), t635 + t636 + t648);
     // mass matrix of the legs
-    let t664 = P::triple([t614, t593, t601]);
+    let t659 = P::triple([t614, t592, t601]);
     // constant and copied elements
-    let t665 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t660 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // inertia less external wrench that the actuators must balance
-    let t666 = mul_add(P::splat(platform_acceleration[3]), t664, t653);
+    let t661 = mul_add(P::splat(platform_acceleration[3]), t659, t650);
     // mass matrix M_p of the platform
-    let t667 = neg_mul_add(P::splat(platform_rotation[2][2]), t658, t657);
+    let t662 = neg_mul_add(P::splat(platform_rotation[2][2]), t655, t654);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t668 = P::neg_mul_add(P::lane(t17, 1), P::lane(t559, 0), t659);
+    let t663 = mul_sub(P::splat(P::lane(t634, 1)), t660, t656);
     // inertia less external wrench that the actuators must balance
-    let t669 = neg_mul_add(t656, P::splat(platform_acceleration[4]), t662);
+    let t664 = neg_mul_add(t653, P::splat(platform_acceleration[4]), t657);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t670 = mul_add(P::splat(P::lane(t640, 1)), t665, t663);
+    let t665 = mul_add(P::splat(P::lane(t640, 1)), t660, t658);
     // mass matrix M_p of the platform
-    let t671 = P::triple([t602, t576, t615]);
-    let t672 = P::triple([t616, t577, t617]);
+    let t666 = P::triple([t602, t578, t615]);
+    let t667 = P::triple([t616, t579, t617]);
     // constant and copied elements
-    let t673 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t668 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
     // inertia less external wrench that the actuators must balance
-    let t674 = mul_sub(t672, P::splat(platform_acceleration[5]), t673);
+    let t669 = mul_sub(t667, P::splat(platform_acceleration[5]), t668);
     // constant and copied elements
-    let t675 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t670 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t676 = mul_add(P::splat(t668), t675, mul_sub(P::splat(t660), t665, t661));
-    let t677 = mul_add(P::splat(P::lane(t640, 2)), t675, t670);
+    let t671 = mul_add(P::splat(P::lane(t634, 2)), t670, t663);
+    let t672 = mul_add(P::splat(P::lane(t640, 2)), t670, t665);
     // inertia less external wrench that the actuators must balance
-    let t678 = mul_add(P::splat(platform_acceleration[4]), t671, t666) + t674;
-    let t679 = neg_mul_add(t667, P::splat(platform_acceleration[5]), t669) + t676;
-    let t680 = t677 + t678;
-    let t681 = -P::lane(t679, 0);
-    let t682 = -P::lane(t679, 1);
-    let t683 = -P::lane(t679, 2);
+    let t673 = mul_add(P::splat(platform_acceleration[4]), t666, t661) + t669;
+    let t674 = neg_mul_add(t662, P::splat(platform_acceleration[5]), t664) + t671;
+    let t675 = t672 + t673;
+    let t676 = -P::lane(t674, 0);
+    let t677 = -P::lane(t674, 1);
+    let t678 = -P::lane(t674, 2);
     // force along the actuator that balances the remaining wrench
     let axial_reaction = solve_general(
         &[
-            [P::lane(t224, 0), P::lane(t224, 1), P::lane(t224, 2), P::lane(t311, 0), P::lane(t311, 1), P::lane(t311, 2)],
-            [P::lane(t232, 0), P::lane(t232, 1), P::lane(t232, 2), P::lane(t294, 0), P::lane(t294, 1), P::lane(t294, 2)],
-            [P::lane(t240, 0), P::lane(t240, 1), P::lane(t240, 2), P::lane(t312, 0), P::lane(t312, 1), P::lane(t312, 2)],
-            [P::lane(t538, 0), P::lane(t538, 1), P::lane(t538, 2), P::lane(t518, 0), P::lane(t518, 1), P::lane(t518, 2)],
-            [P::lane(t539, 0), P::lane(t539, 1), P::lane(t539, 2), P::lane(t519, 0), P::lane(t519, 1), P::lane(t519, 2)],
-            [P::lane(t540, 0), P::lane(t540, 1), P::lane(t540, 2), P::lane(t520, 0), P::lane(t520, 1), P::lane(t520, 2)],
+            [P::lane(t226, 0), P::lane(t226, 1), P::lane(t226, 2), P::lane(t313, 0), P::lane(t313, 1), P::lane(t313, 2)],
+            [P::lane(t235, 0), P::lane(t235, 1), P::lane(t235, 2), P::lane(t294, 0), P::lane(t294, 1), P::lane(t294, 2)],
+            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t314, 0), P::lane(t314, 1), P::lane(t314, 2)],
+            [P::lane(t539, 0), P::lane(t539, 1), P::lane(t539, 2), P::lane(t521, 0), P::lane(t521, 1), P::lane(t521, 2)],
+            [P::lane(t540, 0), P::lane(t540, 1), P::lane(t540, 2), P::lane(t522, 0), P::lane(t522, 1), P::lane(t522, 2)],
+            [P::lane(t541, 0), P::lane(t541, 1), P::lane(t541, 2), P::lane(t523, 0), P::lane(t523, 1), P::lane(t523, 2)],
         ],
-        &[P::lane(t680, 0), P::lane(t680, 1), P::lane(t680, 2), t681, t682, t683],
+        &[P::lane(t675, 0), P::lane(t675, 1), P::lane(t675, 2), t676, t677, t678],
     );
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t177, 0);
+    actuator_length[0] = P::lane(t178, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t177, 1);
+    actuator_length[1] = P::lane(t178, 1);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t177, 2);
+    actuator_length[2] = P::lane(t178, 2);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t218, 0);
+    actuator_length[3] = P::lane(t220, 0);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t218, 1);
+    actuator_length[4] = P::lane(t220, 1);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t218, 2);
+    actuator_length[5] = P::lane(t220, 2);
     // leg 1: rate of the rod's extent along the actuator axis
-    actuator_velocity[0] = P::lane(t212, 0);
+    actuator_velocity[0] = P::lane(t214, 0);
     // leg 2: rate of the rod's extent along the actuator axis
-    actuator_velocity[1] = P::lane(t212, 1);
+    actuator_velocity[1] = P::lane(t214, 1);
     // leg 3: rate of the rod's extent along the actuator axis
-    actuator_velocity[2] = P::lane(t212, 2);
+    actuator_velocity[2] = P::lane(t214, 2);
     // leg 4: rate of the rod's extent along the actuator axis
     actuator_velocity[3] = P::lane(t274, 0);
     // leg 5: rate of the rod's extent along the actuator axis
@@ -34645,83 +34650,83 @@ pub fn control_in_lanes<P: Triple>(
     // leg 6: rate of the rod's extent along the actuator axis
     actuator_velocity[5] = P::lane(t274, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t224, 0);
-    jacobian_dp[0][1] = P::lane(t232, 0);
-    jacobian_dp[0][2] = P::lane(t240, 0);
+    jacobian_dp[0][0] = P::lane(t226, 0);
+    jacobian_dp[0][1] = P::lane(t235, 0);
+    jacobian_dp[0][2] = P::lane(t243, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t538, 0);
-    jacobian_dp[0][4] = P::lane(t539, 0);
-    jacobian_dp[0][5] = P::lane(t540, 0);
+    jacobian_dp[0][3] = P::lane(t539, 0);
+    jacobian_dp[0][4] = P::lane(t540, 0);
+    jacobian_dp[0][5] = P::lane(t541, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t224, 1);
-    jacobian_dp[1][1] = P::lane(t232, 1);
-    jacobian_dp[1][2] = P::lane(t240, 1);
+    jacobian_dp[1][0] = P::lane(t226, 1);
+    jacobian_dp[1][1] = P::lane(t235, 1);
+    jacobian_dp[1][2] = P::lane(t243, 1);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t538, 1);
-    jacobian_dp[1][4] = P::lane(t539, 1);
-    jacobian_dp[1][5] = P::lane(t540, 1);
+    jacobian_dp[1][3] = P::lane(t539, 1);
+    jacobian_dp[1][4] = P::lane(t540, 1);
+    jacobian_dp[1][5] = P::lane(t541, 1);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t224, 2);
-    jacobian_dp[2][1] = P::lane(t232, 2);
-    jacobian_dp[2][2] = P::lane(t240, 2);
+    jacobian_dp[2][0] = P::lane(t226, 2);
+    jacobian_dp[2][1] = P::lane(t235, 2);
+    jacobian_dp[2][2] = P::lane(t243, 2);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t538, 2);
-    jacobian_dp[2][4] = P::lane(t539, 2);
-    jacobian_dp[2][5] = P::lane(t540, 2);
+    jacobian_dp[2][3] = P::lane(t539, 2);
+    jacobian_dp[2][4] = P::lane(t540, 2);
+    jacobian_dp[2][5] = P::lane(t541, 2);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t311, 0);
+    jacobian_dp[3][0] = P::lane(t313, 0);
     jacobian_dp[3][1] = P::lane(t294, 0);
-    jacobian_dp[3][2] = P::lane(t312, 0);
+    jacobian_dp[3][2] = P::lane(t314, 0);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t518, 0);
-    jacobian_dp[3][4] = P::lane(t519, 0);
-    jacobian_dp[3][5] = P::lane(t520, 0);
+    jacobian_dp[3][3] = P::lane(t521, 0);
+    jacobian_dp[3][4] = P::lane(t522, 0);
+    jacobian_dp[3][5] = P::lane(t523, 0);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t311, 1);
+    jacobian_dp[4][0] = P::lane(t313, 1);
     jacobian_dp[4][1] = P::lane(t294, 1);
-    jacobian_dp[4][2] = P::lane(t312, 1);
+    jacobian_dp[4][2] = P::lane(t314, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t518, 1);
-    jacobian_dp[4][4] = P::lane(t519, 1);
-    jacobian_dp[4][5] = P::lane(t520, 1);
+    jacobian_dp[4][3] = P::lane(t521, 1);
+    jacobian_dp[4][4] = P::lane(t522, 1);
+    jacobian_dp[4][5] = P::lane(t523, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t311, 2);
+    jacobian_dp[5][0] = P::lane(t313, 2);
     jacobian_dp[5][1] = P::lane(t294, 2);
-    jacobian_dp[5][2] = P::lane(t312, 2);
+    jacobian_dp[5][2] = P::lane(t314, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t518, 2);
-    jacobian_dp[5][4] = P::lane(t519, 2);
-    jacobian_dp[5][5] = P::lane(t520, 2);
+    jacobian_dp[5][3] = P::lane(t521, 2);
+    jacobian_dp[5][4] = P::lane(t522, 2);
+    jacobian_dp[5][5] = P::lane(t523, 2);
     // mass matrix M_p of the platform
     mass_matrix_p[0][0] = P::lane(t609, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t501, 1);
-    mass_matrix_p[0][2] = P::lane(t501, 2);
-    mass_matrix_p[1][0] = P::lane(t501, 1);
+    mass_matrix_p[0][1] = P::lane(t504, 1);
+    mass_matrix_p[0][2] = P::lane(t504, 2);
+    mass_matrix_p[1][0] = P::lane(t504, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t582, 1);
+    mass_matrix_p[1][1] = P::lane(t584, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t554, 2);
-    mass_matrix_p[2][0] = P::lane(t501, 2);
-    mass_matrix_p[2][1] = P::lane(t554, 2);
+    mass_matrix_p[1][2] = P::lane(t557, 2);
+    mass_matrix_p[2][0] = P::lane(t504, 2);
+    mass_matrix_p[2][1] = P::lane(t557, 2);
     // mass matrix M_p of the platform
     mass_matrix_p[2][2] = P::lane(t638, 2);
     mass_matrix_p[3][3] = P::lane(t641, 0);
     mass_matrix_p[3][4] = P::lane(t641, 1);
     mass_matrix_p[3][5] = P::lane(t641, 2);
     mass_matrix_p[4][3] = P::lane(t641, 1);
-    mass_matrix_p[4][4] = P::lane(t656, 1);
-    mass_matrix_p[4][5] = P::lane(t656, 2);
+    mass_matrix_p[4][4] = P::lane(t653, 1);
+    mass_matrix_p[4][5] = P::lane(t653, 2);
     mass_matrix_p[5][3] = P::lane(t641, 2);
-    mass_matrix_p[5][4] = P::lane(t656, 2);
-    mass_matrix_p[5][5] = P::lane(t667, 2);
+    mass_matrix_p[5][4] = P::lane(t653, 2);
+    mass_matrix_p[5][5] = P::lane(t662, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t677, 0);
-    total_bias[1] = P::lane(t677, 1);
-    total_bias[2] = P::lane(t677, 2);
-    total_bias[3] = -P::lane(t676, 0);
-    total_bias[4] = -P::lane(t676, 1);
-    total_bias[5] = -P::lane(t676, 2);
+    total_bias[0] = P::lane(t672, 0);
+    total_bias[1] = P::lane(t672, 1);
+    total_bias[2] = P::lane(t672, 2);
+    total_bias[3] = -P::lane(t671, 0);
+    total_bias[4] = -P::lane(t671, 1);
+    total_bias[5] = -P::lane(t671, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];

@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
+// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -16239,98 +16239,99 @@ pub fn control<T: Scalar>(
     let t691 = c(0.032245600000000006) * t537;
     let t692 = c(0.032245600000000006) * t538;
     let t693 = mul_add(base_rotation[2][2], c(1.85263812), c(0.013354412) * t539);
+    // moment of the inertia force about the platform origin
+    let t694 = mul_sub(t53, t614, mul_add(t40, t602, t671));
+    let t695 = mul_sub(t63, t630, mul_sub(t54, t613, t694));
+    let t696 = mul_add(t78, t646, mul_add(t65, t629, t695));
+    let t697 = mul_sub(t91, t658, mul_add(t80, t645, t696));
+    let t698 = mul_sub(t99, t670, mul_sub(t92, t657, t697));
+    let t699 = mul_add(t12, t691, mul_sub(t100, t669, t698));
+    let t700 = mul_sub(t15, t692, mul_sub(t21, t688, t699));
+    let t701 = mul_sub(t18, t693, mul_sub(t24, t689, t700));
+    let t702 = mul_sub(t27, t690, t701);
+    let t703 = mul_add(t54, t611, mul_add(t42, t597, t672));
+    let t704 = mul_add(t65, t626, mul_sub(t52, t614, t703));
+    let t705 = mul_add(t80, t642, mul_add(t61, t630, t704));
+    let t706 = mul_add(t92, t655, mul_add(t76, t646, t705));
+    let t707 = mul_sub(t100, t667, mul_sub(t90, t658, t706));
+    let t708 = mul_add(t21, t685, mul_sub(t98, t670, t707));
+    let t709 = mul_sub(t24, t686, mul_sub(t3, t691, t708));
+    let t710 = mul_sub(t27, t687, mul_sub(t6, t692, t709));
+    let t711 = mul_sub(t9, t693, t710);
+    let t712 = mul_add(t52, t613, mul_sub(t38, t601, t673));
+    let t713 = mul_add(t61, t629, mul_sub(t53, t611, t712));
+    let t714 = mul_sub(t76, t645, mul_sub(t63, t626, t713));
+    let t715 = mul_sub(t90, t657, mul_sub(t78, t642, t714));
+    let t716 = mul_sub(t98, t669, mul_sub(t91, t655, t715));
+    let t717 = mul_add(t3, t688, mul_sub(t99, t667, t716));
+    let t718 = mul_sub(t6, t689, mul_sub(t12, t685, t717));
+    let t719 = mul_sub(t9, t690, mul_sub(t15, t686, t718));
+    let t720 = mul_sub(t18, t687, t719);
     // leg 1: force along the actuator that reaches the platform
-    let t694 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
-    let t695 = neg_mul_add(t521, c(0.03055), t694);
-    let t696 = neg_mul_add(t537, c(0.019782160922400118), t695);
-    let t697 = t538 * c(0.005300614043699624);
-    let t698 = mul_add(t593, c(0.9523333333333334), mul_add(c(21555.9), t109, t697));
-    let t699 = t696 + t698;
+    let t721 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
+    let t722 = neg_mul_add(t521, c(0.03055), t721);
+    let t723 = neg_mul_add(t537, c(0.019782160922400118), t722);
+    let t724 = t538 * c(0.005300614043699624);
+    let t725 = mul_add(t593, c(0.9523333333333334), mul_add(c(21555.9), t109, t724));
+    let t726 = t723 + t725;
     // leg 2: force along the actuator that reaches the platform
-    let t700 = neg_mul_add(c(21555.9), t113, t697);
-    let t701 = t696 - mul_add(t609, c(0.9523333333333334), t700);
+    let t727 = neg_mul_add(c(21555.9), t113, t724);
+    let t728 = t723 - mul_add(t609, c(0.9523333333333334), t727);
     // leg 3: force along the actuator that reaches the platform
-    let t702 = mul_add(t537, c(0.005300614043699622), t695);
-    let t703 = t538 * c(0.019782160922400118);
-    let t704 = mul_add(t623, c(0.9523333333333334), mul_sub(c(21555.9), t117, t703));
-    let t705 = t702 + t704;
+    let t729 = mul_add(t537, c(0.005300614043699622), t722);
+    let t730 = t538 * c(0.019782160922400118);
+    let t731 = mul_add(t623, c(0.9523333333333334), mul_sub(c(21555.9), t117, t730));
+    let t732 = t729 + t731;
     // leg 4: force along the actuator that reaches the platform
-    let t706 = mul_add(t537, c(0.01448154687870049), t695);
-    let t707 = t538 * c(0.014481546878700494);
-    let t708 = mul_add(t639, c(0.9523333333333334), mul_sub(c(21555.9), t121, t707));
-    let t709 = t706 + t708;
+    let t733 = mul_add(t537, c(0.01448154687870049), t722);
+    let t734 = t538 * c(0.014481546878700494);
+    let t735 = mul_add(t639, c(0.9523333333333334), mul_sub(c(21555.9), t121, t734));
+    let t736 = t733 + t735;
     // leg 5: force along the actuator that reaches the platform
-    let t710 = mul_add(c(21555.9), t125, t707);
-    let t711 = t706 + neg_mul_add(t653, c(0.9523333333333334), t710);
+    let t737 = mul_add(c(21555.9), t125, t734);
+    let t738 = t733 + neg_mul_add(t653, c(0.9523333333333334), t737);
     // leg 6: force along the actuator that reaches the platform
-    let t712 = mul_add(c(21555.9), t129, t703);
-    let t713 = t702 + neg_mul_add(t665, c(0.9523333333333334), t712);
+    let t739 = mul_add(c(21555.9), t129, t730);
+    let t740 = t729 + neg_mul_add(t665, c(0.9523333333333334), t739);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t714 = mul_add(base_rotation[0][0], t675, base_rotation[0][1] * t677);
-    let t715 = mul_sub(t143, t699, mul_add(base_rotation[0][2], t684, t714));
-    let t716 = mul_sub(t155, t705, mul_add(t149, t701, t715));
-    let t717 = mul_add(t167, t711, mul_add(t161, t709, t716));
-    let t718 = mul_add(t173, t713, t717);
-    total_bias[0] = t718;
-    let t719 = mul_add(base_rotation[1][0], t675, base_rotation[1][1] * t677);
-    let t720 = mul_sub(t145, t699, mul_add(base_rotation[1][2], t684, t719));
-    let t721 = mul_sub(t157, t705, mul_add(t151, t701, t720));
-    let t722 = mul_add(t169, t711, mul_add(t163, t709, t721));
-    let t723 = mul_add(t175, t713, t722);
-    total_bias[1] = t723;
-    let t724 = mul_add(base_rotation[2][0], t675, base_rotation[2][1] * t677);
-    let t725 = mul_sub(t147, t699, mul_add(base_rotation[2][2], t684, t724));
-    let t726 = mul_sub(t159, t705, mul_add(t153, t701, t725));
-    let t727 = mul_add(t171, t711, mul_add(t165, t709, t726));
-    let t728 = mul_add(t177, t713, t727);
-    total_bias[2] = t728;
-    let t729 = mul_add(t52, t613, mul_sub(t38, t601, t673));
-    let t730 = mul_add(t61, t629, mul_sub(t53, t611, t729));
-    let t731 = mul_sub(t76, t645, mul_sub(t63, t626, t730));
-    let t732 = mul_sub(t90, t657, mul_sub(t78, t642, t731));
-    let t733 = mul_sub(t98, t669, mul_sub(t91, t655, t732));
-    let t734 = mul_add(t3, t688, mul_sub(t99, t667, t733));
-    let t735 = mul_sub(t6, t689, mul_sub(t12, t685, t734));
-    let t736 = mul_sub(t9, t690, mul_sub(t15, t686, t735));
-    let t737 = mul_sub(t18, t687, t736);
-    let t738 = mul_sub(t53, t614, mul_add(t40, t602, t671));
-    let t739 = mul_sub(t63, t630, mul_sub(t54, t613, t738));
-    let t740 = mul_add(t78, t646, mul_add(t65, t629, t739));
-    let t741 = mul_sub(t91, t658, mul_add(t80, t645, t740));
-    let t742 = mul_sub(t99, t670, mul_sub(t92, t657, t741));
-    let t743 = mul_add(t12, t691, mul_sub(t100, t669, t742));
-    let t744 = mul_sub(t15, t692, mul_sub(t21, t688, t743));
-    let t745 = mul_sub(t18, t693, mul_sub(t24, t689, t744));
-    let t746 = mul_sub(t27, t690, t745);
-    let t747 = mul_add(t54, t611, mul_add(t42, t597, t672));
-    let t748 = mul_add(t65, t626, mul_sub(t52, t614, t747));
-    let t749 = mul_add(t80, t642, mul_add(t61, t630, t748));
-    let t750 = mul_add(t92, t655, mul_add(t76, t646, t749));
-    let t751 = mul_sub(t100, t667, mul_sub(t90, t658, t750));
-    let t752 = mul_add(t21, t685, mul_sub(t98, t670, t751));
-    let t753 = mul_sub(t24, t686, mul_sub(t3, t691, t752));
-    let t754 = mul_sub(t27, t687, mul_sub(t6, t692, t753));
-    let t755 = mul_sub(t9, t693, t754);
-    let t756 = mul_add(base_rotation[0][0], t746, base_rotation[0][1] * t755);
-    let t757 = mul_add(t178, t699, mul_add(base_rotation[0][2], t737, t756));
-    let t758 = mul_add(t184, t705, mul_add(t181, t701, t757));
-    let t759 = mul_add(t190, t711, mul_add(t187, t709, t758));
-    let t760 = mul_add(t193, t713, t759);
-    let t761 = mul_add(base_rotation[1][0], t746, base_rotation[1][1] * t755);
-    let t762 = mul_add(t179, t699, mul_add(base_rotation[1][2], t737, t761));
-    let t763 = mul_add(t185, t705, mul_add(t182, t701, t762));
-    let t764 = mul_add(t191, t711, mul_add(t188, t709, t763));
-    let t765 = mul_add(t194, t713, t764);
-    let t766 = mul_add(base_rotation[2][0], t746, base_rotation[2][1] * t755);
-    let t767 = mul_add(t180, t699, mul_add(base_rotation[2][2], t737, t766));
-    let t768 = mul_add(t186, t705, mul_add(t183, t701, t767));
-    let t769 = mul_add(t192, t711, mul_add(t189, t709, t768));
-    let t770 = mul_add(t195, t713, t769);
+    let t741 = mul_add(base_rotation[0][0], t675, base_rotation[0][1] * t677);
+    let t742 = mul_sub(t143, t726, mul_add(base_rotation[0][2], t684, t741));
+    let t743 = mul_sub(t155, t732, mul_add(t149, t728, t742));
+    let t744 = mul_add(t167, t738, mul_add(t161, t736, t743));
+    let t745 = mul_add(t173, t740, t744);
+    total_bias[0] = t745;
+    let t746 = mul_add(base_rotation[1][0], t675, base_rotation[1][1] * t677);
+    let t747 = mul_sub(t145, t726, mul_add(base_rotation[1][2], t684, t746));
+    let t748 = mul_sub(t157, t732, mul_add(t151, t728, t747));
+    let t749 = mul_add(t169, t738, mul_add(t163, t736, t748));
+    let t750 = mul_add(t175, t740, t749);
+    total_bias[1] = t750;
+    let t751 = mul_add(base_rotation[2][0], t675, base_rotation[2][1] * t677);
+    let t752 = mul_sub(t147, t726, mul_add(base_rotation[2][2], t684, t751));
+    let t753 = mul_sub(t159, t732, mul_add(t153, t728, t752));
+    let t754 = mul_add(t171, t738, mul_add(t165, t736, t753));
+    let t755 = mul_add(t177, t740, t754);
+    total_bias[2] = t755;
+    let t756 = mul_add(base_rotation[0][0], t702, base_rotation[0][1] * t711);
+    let t757 = mul_add(t178, t726, mul_add(base_rotation[0][2], t720, t756));
+    let t758 = mul_add(t184, t732, mul_add(t181, t728, t757));
+    let t759 = mul_add(t190, t738, mul_add(t187, t736, t758));
+    let t760 = mul_add(t193, t740, t759);
+    let t761 = mul_add(base_rotation[1][0], t702, base_rotation[1][1] * t711);
+    let t762 = mul_add(t179, t726, mul_add(base_rotation[1][2], t720, t761));
+    let t763 = mul_add(t185, t732, mul_add(t182, t728, t762));
+    let t764 = mul_add(t191, t738, mul_add(t188, t736, t763));
+    let t765 = mul_add(t194, t740, t764);
+    let t766 = mul_add(base_rotation[2][0], t702, base_rotation[2][1] * t711);
+    let t767 = mul_add(t180, t726, mul_add(base_rotation[2][2], t720, t766));
+    let t768 = mul_add(t186, t732, mul_add(t183, t728, t767));
+    let t769 = mul_add(t192, t738, mul_add(t189, t736, t768));
+    let t770 = mul_add(t195, t740, t769);
     total_bias[3] = -t760;
     total_bias[4] = -t765;
     total_bias[5] = -t770;
     // inertia less external wrench that the actuators must balance
-    let t771 = mul_add(platform_acceleration[0], t345, external_wrench[0] - t718);
+    let t771 = mul_add(platform_acceleration[0], t345, external_wrench[0] - t745);
     let t772 = mul_add(platform_acceleration[1], t271, t771);
     let t773 = mul_add(platform_acceleration[2], t272, t772);
     let t774 = mul_sub(platform_acceleration[3], t278, t773);
@@ -16367,7 +16368,7 @@ pub fn control<T: Scalar>(
     let t804 = neg_mul_add(t167, t803, t171) * t791;
     let t805 = c(1.0) / mul_sub(t802, t792, neg_mul_add(t161, t790, t189));
     let t806 = mul_sub(t802, t804, neg_mul_add(t161, t803, t165)) * t805;
-    let t807 = mul_add(platform_acceleration[0], t272, external_wrench[2] - t728);
+    let t807 = mul_add(platform_acceleration[0], t272, external_wrench[2] - t755);
     let t808 = mul_add(platform_acceleration[1], t291, t807);
     let t809 = mul_add(platform_acceleration[2], t359, t808);
     let t810 = mul_add(platform_acceleration[3], t361, t809);
@@ -16406,7 +16407,7 @@ pub fn control<T: Scalar>(
     let t843 = mul_sub(t833, t817, mul_add(t149, t816, t182));
     let t844 = c(1.0) / mul_sub(t836, t822, mul_sub(t834, t818, t843));
     let t845 = mul_sub(t836, t841, mul_sub(t834, t839, t842)) * t844;
-    let t846 = mul_add(platform_acceleration[0], t271, external_wrench[1] - t723);
+    let t846 = mul_add(platform_acceleration[0], t271, external_wrench[1] - t750);
     let t847 = mul_add(platform_acceleration[1], t352, t846);
     let t848 = mul_add(platform_acceleration[2], t291, t847);
     let t849 = mul_add(platform_acceleration[3], t354, t848);
@@ -22585,26 +22586,26 @@ pub fn control_in_lanes<P: Triple>(
     let t331 = P::triple([P::lane(t300, 2), P::lane(t300, 0), P::lane(t300, 1)]);
     // inertia force less weight, without the actuators' own shares
     let t332 = P::triple([P::lane(t290, 2), P::lane(t291, 2), -P::lane(t285, 2)]);
-    // legs 6, 2, 5: gradient of the actuator length
-    let t333 = P::triple([P::lane(t165, 2), P::lane(t165, 0), P::lane(t165, 1)]);
-    // legs 5, 6, 2: gradient of the actuator length
-    let t334 = P::triple([P::lane(t151, 1), P::lane(t151, 2), P::lane(t151, 0)]);
-    // mass matrix M_p of the platform
-    let t335 = t286 + t317;
-    let t336 = t263 + t282;
-    // mass matrix of the legs
-    let t337 = t318 + t330;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t338 = P::triple([-P::lane(t302, 0), P::lane(t306, 0), P::lane(t307, 0)]);
-    let t339 = P::triple([-P::lane(t302, 1), P::lane(t306, 1), P::lane(t307, 1)]);
-    // legs 5, 6, 2: gradient of the actuator length
-    let t340 = P::triple([P::lane(t165, 1), P::lane(t165, 2), P::lane(t165, 0)]);
-    // legs 6, 2, 5: gradient of the actuator length
-    let t341 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
-    // mass of payload and platform-side leg ends
-    let t342 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t343 = t170 * w(0.032245600000000006);
+    let t333 = t170 * w(0.032245600000000006);
+    // legs 6, 2, 5: gradient of the actuator length
+    let t334 = P::triple([P::lane(t165, 2), P::lane(t165, 0), P::lane(t165, 1)]);
+    // legs 5, 6, 2: gradient of the actuator length
+    let t335 = P::triple([P::lane(t151, 1), P::lane(t151, 2), P::lane(t151, 0)]);
+    // mass matrix M_p of the platform
+    let t336 = t286 + t317;
+    let t337 = t263 + t282;
+    // mass matrix of the legs
+    let t338 = t318 + t330;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t339 = P::triple([-P::lane(t302, 0), P::lane(t306, 0), P::lane(t307, 0)]);
+    let t340 = P::triple([-P::lane(t302, 1), P::lane(t306, 1), P::lane(t307, 1)]);
+    // legs 5, 6, 2: gradient of the actuator length
+    let t341 = P::triple([P::lane(t165, 1), P::lane(t165, 2), P::lane(t165, 0)]);
+    // legs 6, 2, 5: gradient of the actuator length
+    let t342 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
+    // mass of payload and platform-side leg ends
+    let t343 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
     // legs 6, 2, 5: gradient of the actuator length
     let t344 = P::triple([P::lane(t151, 2), P::lane(t151, 0), P::lane(t151, 1)]);
     // mass matrix of the legs
@@ -22616,7 +22617,7 @@ pub fn control_in_lanes<P: Triple>(
     let t350 = P::triple([P::lane(t311, 0), -P::lane(t309, 0), P::lane(t312, 0)]);
     let t351 = P::triple([P::lane(t311, 1), -P::lane(t309, 1), P::lane(t312, 1)]);
     // mass matrix M_p of the platform
-    let t352 = t288 + t342;
+    let t352 = t288 + t343;
     // acceleration per platform coordinate of points of the platform
     let t353 = mul_sub(t70, t300, t148 * t331);
     // inertia force less weight, without the actuators' own shares
@@ -22624,319 +22625,324 @@ pub fn control_in_lanes<P: Triple>(
     // moment of the legs' inertia at their joints about the platform origin
     let t355 = P::triple([-P::lane(t302, 2), P::lane(t306, 2), P::lane(t307, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t356 = t337 * P::splat(platform_acceleration[1]);
+    let t356 = t338 * P::splat(platform_acceleration[1]);
     // legs 5, 6, 2: gradient of the actuator length
     let t357 = P::triple([P::lane(t159, 1), P::lane(t159, 2), P::lane(t159, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t358 = mul_sub(t340, t344, t333 * t334);
+    let t358 = mul_sub(t341, t344, t334 * t335);
     // mass matrix of the legs
     let t359 = t260 + t278;
     // moment of the legs' inertia at their joints about the platform origin
-    let t360 = t338 + t339 + t355;
+    let t360 = t339 + t340 + t355;
     // force along the actuator that balances the remaining wrench
-    let t361 = mul_sub(t333, t357, t340 * t341);
+    let t361 = mul_sub(t334, t357, t341 * t342);
     // mass matrix M_p of the platform
     let t362 = P::lane(t316, 2) + (P::lane(t316, 1) + P::lane(t316, 0));
     // mass matrix of the legs
     let t363 = P::triple([P::lane(t311, 2), -P::lane(t309, 2), P::lane(t312, 2)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t364 = P::triple([P::lane(t323, 0), P::lane(t324, 0), P::lane(t325, 0)]);
-    let t365 = P::triple([P::lane(t323, 1), P::lane(t324, 1), P::lane(t325, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t366 = mul_add(t352, P::splat(platform_acceleration[0]), t356);
-    // mass matrix M_p of the platform
-    let t367 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
-    // mass matrix of the legs
-    let t368 = mul_add(t250, t313, mul_sub(t210, t287, t209 * t263));
-    let t369 = t350 + t351 + t363;
-    let t370 = t348 + t349 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
-    // inertia force less weight, without the actuators' own shares
-    let t371 = mul_add(t353, w(0.188852), t354);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t372 = P::triple([P::lane(t323, 2), P::lane(t324, 2), P::lane(t325, 2)]);
-    let t373 = P::mul_add(P::lane(t15, 1), P::lane(t343, 2), P::lane(t360, 0));
-    // mass matrix M_p of the platform
-    let t374 = P::mul_sub(platform_rotation[1][2], c(0.188852), t367);
-    mass_matrix_p[2][3] = t374;
-    mass_matrix_p[3][2] = t374;
-    let t375 = P::lane(t329, 2) + (P::lane(t329, 1) + P::lane(t329, 0));
-    let t376 = P::lane(t328, 2) + (P::lane(t328, 1) + P::lane(t328, 0));
-    // force along the actuator that balances the remaining wrench
-    let t377 = t173 * P::splat(P::lane(t358, 0));
     // first moments by platform coordinate of the payload's inertia force
-    let t378 = t189 * w(0.032245600000000006);
-    // inertia less external wrench that the actuators must balance
-    let t379 = mul_add(t370, P::splat(platform_acceleration[2]), t366);
-    // mass matrix M_p of the platform
-    let t380 = P::lane(t335, 2) + (P::lane(t335, 1) + P::lane(t335, 0));
-    let t381 = P::lane(t336, 2) + (P::lane(t336, 1) + P::lane(t336, 0));
-    // force along the actuator that balances the remaining wrench
-    let t382 = mul_sub(t334, t341, t344 * t357);
-    // legs 1, 3, 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t383 = mul_sub(t174, t250, t173 * t258);
-    let t384 = mul_sub(t158, t258, t174 * t243);
-    let t385 = mul_sub(t173, t243, t158 * t250);
-    // mass matrix of the legs
-    let t386 = neg_mul_add(t243, t282, t368);
-    let t387 = P::lane(t347, 1) + P::lane(t347, 0);
-    // constant and copied elements
-    let t388 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix of the legs
-    let t389 = -(P::lane(t322, 2) + (P::lane(t322, 1) + P::lane(t322, 0)));
-    mass_matrix_p[0][3] = t389;
-    mass_matrix_p[3][0] = t389;
-    // mass matrix M_p of the platform
-    let t390 = -P::mul_add(platform_rotation[2][2], c(0.188852), t362);
-    mass_matrix_p[1][3] = t390;
-    mass_matrix_p[3][1] = t390;
-    // force along the actuator that balances the remaining wrench
-    let t391 = mul_add(t158, P::splat(P::lane(t361, 0)), t377);
-    let t392 = P::lane(t151, 1) * P::lane(t361, 1);
+    let t364 = P::triple([P::lane(t333, 2), P::lane(t333, 0), P::lane(t333, 1)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t393 = neg_mul_add(P::splat(P::lane(t371, 0)), t388, t364 + t365 + t372);
-    let t394 = P::mul_add(P::lane(t15, 2), P::lane(t343, 0), P::lane(t360, 1));
-    let t395 = P::neg_mul_add(P::lane(t15, 2), P::lane(t343, 1), t373);
-    // mass matrix of the legs
-    let t396 = P::triple([t389, t390, t374]);
+    let t365 = P::triple([P::lane(t323, 0), P::lane(t324, 0), P::lane(t325, 0)]);
+    let t366 = P::triple([P::lane(t323, 1), P::lane(t324, 1), P::lane(t325, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t367 = mul_add(t352, P::splat(platform_acceleration[0]), t356);
     // mass matrix M_p of the platform
-    let t397 = P::mul_sub(platform_rotation[2][2], c(0.188852), t380);
-    mass_matrix_p[0][4] = t397;
-    mass_matrix_p[4][0] = t397;
-    let t398 = P::mul_sub(platform_rotation[0][2], c(0.188852), t381);
-    mass_matrix_p[1][5] = t398;
-    mass_matrix_p[5][1] = t398;
+    let t368 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
+    // mass matrix of the legs
+    let t369 = mul_add(t250, t313, mul_sub(t210, t287, t209 * t263));
+    let t370 = t350 + t351 + t363;
+    let t371 = t348 + t349 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+    // inertia force less weight, without the actuators' own shares
+    let t372 = mul_add(t353, w(0.188852), t354);
+    // first moments by platform coordinate of the payload's inertia force
+    let t373 = t189 * w(0.032245600000000006);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t374 = P::triple([P::lane(t323, 2), P::lane(t324, 2), P::lane(t325, 2)]);
+    // mass matrix M_p of the platform
+    let t375 = P::mul_sub(platform_rotation[1][2], c(0.188852), t368);
+    mass_matrix_p[2][3] = t375;
+    mass_matrix_p[3][2] = t375;
+    let t376 = P::lane(t329, 2) + (P::lane(t329, 1) + P::lane(t329, 0));
+    let t377 = P::lane(t328, 2) + (P::lane(t328, 1) + P::lane(t328, 0));
+    // force along the actuator that balances the remaining wrench
+    let t378 = t173 * P::splat(P::lane(t358, 0));
+    // rotation of the platform seen from the base
+    let t379 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t380 = P::triple([P::lane(t333, 1), P::lane(t333, 2), P::lane(t333, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t381 = mul_add(t371, P::splat(platform_acceleration[2]), t367);
+    // mass matrix M_p of the platform
+    let t382 = P::lane(t336, 2) + (P::lane(t336, 1) + P::lane(t336, 0));
+    let t383 = P::lane(t337, 2) + (P::lane(t337, 1) + P::lane(t337, 0));
+    // force along the actuator that balances the remaining wrench
+    let t384 = mul_sub(t335, t342, t344 * t357);
+    // legs 1, 3, 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t385 = mul_sub(t174, t250, t173 * t258);
+    let t386 = mul_sub(t158, t258, t174 * t243);
+    let t387 = mul_sub(t173, t243, t158 * t250);
+    // mass matrix of the legs
+    let t388 = neg_mul_add(t243, t282, t369);
+    let t389 = P::lane(t347, 1) + P::lane(t347, 0);
+    // moment of the inertia force about the platform origin
+    let t390 = neg_mul_add(t379, t380, mul_add(t109, t364, t360));
     // constant and copied elements
-    let t399 =
+    let t391 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t392 = -(P::lane(t322, 2) + (P::lane(t322, 1) + P::lane(t322, 0)));
+    mass_matrix_p[0][3] = t392;
+    mass_matrix_p[3][0] = t392;
+    // mass matrix M_p of the platform
+    let t393 = -P::mul_add(platform_rotation[2][2], c(0.188852), t362);
+    mass_matrix_p[1][3] = t393;
+    mass_matrix_p[3][1] = t393;
+    // force along the actuator that balances the remaining wrench
+    let t394 = mul_add(t158, P::splat(P::lane(t361, 0)), t378);
+    let t395 = P::lane(t151, 1) * P::lane(t361, 1);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t396 = neg_mul_add(P::splat(P::lane(t372, 0)), t391, t365 + t366 + t374);
+    // mass matrix of the legs
+    let t397 = P::triple([t392, t393, t375]);
+    // mass matrix M_p of the platform
+    let t398 = P::mul_sub(platform_rotation[2][2], c(0.188852), t382);
+    mass_matrix_p[0][4] = t398;
+    mass_matrix_p[4][0] = t398;
+    let t399 = P::mul_sub(platform_rotation[0][2], c(0.188852), t383);
+    mass_matrix_p[1][5] = t399;
+    mass_matrix_p[5][1] = t399;
+    // constant and copied elements
+    let t400 =
         P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t400 = mul_sub(t165, t210, t159 * t204);
-    let t401 = mul_sub(t151, t204, t165 * t209);
-    let t402 = mul_sub(t159, t209, t151 * t210);
+    let t401 = mul_sub(t165, t210, t159 * t204);
+    let t402 = mul_sub(t151, t204, t165 * t209);
+    let t403 = mul_sub(t159, t209, t151 * t210);
     // mass matrix of the legs
-    let t403 = P::triple([P::lane(t369, 1), P::lane(t346, 2), P::lane(t347, 2)]);
-    let t404 = P::triple([c(0.0), P::lane(t346, 1) + P::lane(t346, 0), t387]);
-    // inertia less external wrench that the actuators must balance
-    let t405 = mul_add(t396, P::splat(platform_acceleration[3]), t379);
-    // mass matrix of the legs
-    let t406 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
-    mass_matrix_p[1][4] = t406;
-    mass_matrix_p[4][1] = t406;
-    // inertia less external wrench that the actuators must balance
-    let t407 = t399 * w(0.031);
-    // mass matrix of the legs
-    let t408 = t403 + t404;
-    // force along the actuator that balances the remaining wrench
-    let t409 = P::mul_add(P::lane(t151, 0), P::lane(t361, 0), t392);
-    // constant and copied elements
-    let t410 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    // mass matrix M_p of the platform
-    let t411 = -P::mul_add(platform_rotation[0][2], c(0.188852), t375);
-    mass_matrix_p[2][4] = t411;
-    mass_matrix_p[4][2] = t411;
-    let t412 = -P::mul_add(platform_rotation[1][2], c(0.188852), t376);
-    mass_matrix_p[0][5] = t412;
-    mass_matrix_p[5][0] = t412;
-    // mass matrix of the legs
-    let t413 = -(P::lane(t345, 2) + (P::lane(t345, 1) + P::lane(t345, 0)));
-    mass_matrix_p[2][5] = t413;
-    mass_matrix_p[5][2] = t413;
-    // force along the actuator that balances the remaining wrench
-    let t414 = mul_add(t174, P::splat(P::lane(t382, 0)), t391);
-    let t415 = t173 * P::splat(P::lane(t358, 1));
+    let t404 = P::triple([P::lane(t370, 1), P::lane(t346, 2), P::lane(t347, 2)]);
+    let t405 = P::triple([c(0.0), P::lane(t346, 1) + P::lane(t346, 0), t389]);
     // first moments by platform coordinate of the payload's inertia force
-    let t416 = mul_add(t176, w(0.188852), t353 * w(0.013354412));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t417 = mul_sub(P::splat(P::lane(t371, 1)), t410, t393);
-    let t418 = P::mul_add(P::lane(t15, 0), P::lane(t343, 1), P::lane(t360, 2));
-    let t419 = P::neg_mul_add(P::lane(t15, 0), P::lane(t343, 2), t394);
-    let t420 = P::mul_add(P::lane(t14, 1), P::lane(t378, 2), t395);
-    // mass matrix M_p of the platform
-    let t421 = P::triple([t397, t406, t411]);
-    let t422 = P::triple([t412, t398, t413]);
-    // constant and copied elements
-    let t423 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    let t424 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t425 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t426 = t369 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
-    let t427 = platform_rotation[0][0] * c(0.032245600000000006);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t428 = mul_add(t310, t400, t303 * t383);
-    let t429 = mul_add(t310, t401, t303 * t384);
-    let t430 = mul_add(t310, t402, t303 * t385);
+    let t406 = mul_add(t176, w(0.188852), t353 * w(0.013354412));
+    let t407 = P::triple([P::lane(t373, 2), P::lane(t373, 0), P::lane(t373, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t431 = mul_sub(t422, P::splat(platform_acceleration[5]), t423);
+    let t408 = mul_add(t397, P::splat(platform_acceleration[3]), t381);
+    // mass matrix of the legs
+    let t409 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
+    mass_matrix_p[1][4] = t409;
+    mass_matrix_p[4][1] = t409;
+    // inertia less external wrench that the actuators must balance
+    let t410 = t400 * w(0.031);
+    // mass matrix of the legs
+    let t411 = t404 + t405;
     // force along the actuator that balances the remaining wrench
-    let t432 = mul_add(t158, P::splat(P::lane(t361, 1)), t415);
-    let t433 = P::mul_add(P::lane(t151, 2), P::lane(t361, 2), t409);
+    let t412 = P::mul_add(P::lane(t151, 0), P::lane(t361, 0), t395);
     // constant and copied elements
-    let t434 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t435 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
-    // force along the actuator that balances the remaining wrench
-    let t436 = t173 * P::splat(P::lane(t358, 2));
+    let t413 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t437 = neg_mul_add(P::splat(t427), t434, t426);
-    let t438 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    let t414 = -P::mul_add(platform_rotation[0][2], c(0.188852), t376);
+    mass_matrix_p[2][4] = t414;
+    mass_matrix_p[4][2] = t414;
+    let t415 = -P::mul_add(platform_rotation[1][2], c(0.188852), t377);
+    mass_matrix_p[0][5] = t415;
+    mass_matrix_p[5][0] = t415;
+    // mass matrix of the legs
+    let t416 = -(P::lane(t345, 2) + (P::lane(t345, 1) + P::lane(t345, 0)));
+    mass_matrix_p[2][5] = t416;
+    mass_matrix_p[5][2] = t416;
+    // force along the actuator that balances the remaining wrench
+    let t417 = mul_add(t174, P::splat(P::lane(t384, 0)), t394);
+    let t418 = t173 * P::splat(P::lane(t358, 1));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t419 = mul_sub(P::splat(P::lane(t372, 1)), t413, t396);
+    // mass matrix M_p of the platform
+    let t420 = P::triple([t398, t409, t414]);
+    let t421 = P::triple([t415, t399, t416]);
     // constant and copied elements
-    let t439 =
+    let t422 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t423 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t424 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t425 = t370 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t426 = platform_rotation[0][0] * c(0.032245600000000006);
+    // rotation of the platform seen from the base
+    let t427 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t428 = P::triple([P::lane(t373, 1), P::lane(t373, 2), P::lane(t373, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t429 = mul_add(t310, t401, t303 * t385);
+    let t430 = mul_add(t310, t402, t303 * t386);
+    let t431 = mul_add(t310, t403, t303 * t387);
+    // inertia less external wrench that the actuators must balance
+    let t432 = mul_sub(t421, P::splat(platform_acceleration[5]), t422);
+    // moment of the inertia force about the platform origin
+    let t433 = neg_mul_add(t427, t428, mul_add(t130, t407, t390));
+    // force along the actuator that balances the remaining wrench
+    let t434 = mul_add(t158, P::splat(P::lane(t361, 1)), t418);
+    let t435 = P::mul_add(P::lane(t151, 2), P::lane(t361, 2), t412);
+    // constant and copied elements
+    let t436 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t437 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t438 = t173 * P::splat(P::lane(t358, 2));
+    // mass matrix M_p of the platform
+    let t439 = neg_mul_add(P::splat(t426), t436, t425);
+    let t440 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    // constant and copied elements
+    let t441 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t440 = mul_add(P::splat(P::lane(t371, 2)), t435, t417);
-    let t441 = P::neg_mul_add(P::lane(t15, 1), P::lane(t343, 0), t418);
-    let t442 = P::mul_add(P::lane(t14, 2), P::lane(t378, 0), t419);
-    let t443 = P::neg_mul_add(P::lane(t14, 2), P::lane(t378, 1), t420);
+    let t442 = mul_add(P::splat(P::lane(t372, 2)), t437, t419);
     // constant and copied elements
-    let t444 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t443 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t445 = P::triple([P::lane(t407, 1), P::lane(t407, 2), P::lane(t407, 0)]);
+    let t444 = P::triple([P::lane(t410, 1), P::lane(t410, 2), P::lane(t410, 0)]);
     // mass matrix of the legs
-    let t446 = P::triple([P::lane(t369, 2), P::lane(t408, 2), P::lane(t386, 2)]);
-    let t447 = P::triple([c(0.0), c(0.0), P::lane(t386, 1) + P::lane(t386, 0)]);
+    let t445 = P::triple([P::lane(t370, 2), P::lane(t411, 2), P::lane(t388, 2)]);
+    let t446 = P::triple([c(0.0), c(0.0), P::lane(t388, 1) + P::lane(t388, 0)]);
     // mass matrix M_p of the platform
-    let t448 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t447 = platform_rotation[0][1] * c(0.032245600000000006);
     // mass matrix of the legs
-    let t449 = t408 + t438;
+    let t448 = t411 + t440;
+    // first moments by platform coordinate of the payload's inertia force
+    let t449 = P::triple([P::lane(t406, 2), P::lane(t406, 0), P::lane(t406, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t450 = mul_add(t421, P::splat(platform_acceleration[4]), t405) + t431;
+    let t450 = mul_add(t420, P::splat(platform_acceleration[4]), t408) + t432;
     // mass matrix M_p of the platform
-    let t451 = P::triple([t390, t406, t398]);
+    let t451 = P::triple([t393, t409, t399]);
     // inertia less external wrench that the actuators must balance
-    let t452 = neg_mul_add(t444, t445, mul_add(t407, t425, t424));
+    let t452 = neg_mul_add(t443, t444, mul_add(t410, t424, t423));
     let t453 = P::splat(platform_acceleration[1]) * t451;
     // force along the actuator that balances the remaining wrench
-    let t454 = mul_add(t174, P::splat(P::lane(t382, 1)), t432);
-    let t455 = mul_add(t158, P::splat(P::lane(t361, 2)), t436);
-    let t456 = mul_sub(t384, P::splat(t433), t414 * P::splat(P::lane(t401, 0)));
-    let t457 = mul_sub(t385, P::splat(t433), t414 * P::splat(P::lane(t402, 0)));
+    let t454 = mul_add(t174, P::splat(P::lane(t384, 1)), t434);
+    let t455 = mul_add(t158, P::splat(P::lane(t361, 2)), t438);
+    let t456 = mul_sub(t386, P::splat(t435), t417 * P::splat(P::lane(t402, 0)));
+    let t457 = mul_sub(t387, P::splat(t435), t417 * P::splat(P::lane(t403, 0)));
     // constant and copied elements
     let t458 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     let t459 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t460 = neg_mul_add(P::splat(t448), t458, t437);
+    let t460 = neg_mul_add(P::splat(t447), t458, t439);
     // constant and copied elements
     let t461 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
     // mass matrix M_p of the platform
-    let t462 = neg_mul_add(w(0.032245600000000006) * t439, t459, t449);
+    let t462 = neg_mul_add(w(0.032245600000000006) * t441, t459, t448);
     let t463 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t464 = P::mul_add(P::lane(t14, 0), P::lane(t378, 1), t441);
-    let t465 = P::neg_mul_add(P::lane(t14, 0), P::lane(t378, 2), t442);
-    let t466 = P::mul_add(P::lane(t257, 1), P::lane(t416, 2), t443);
     // inertia less external wrench that the actuators must balance
-    let t467 = t440 + t450;
+    let t464 = t442 + t450;
     // mass matrix of the legs
-    let t468 = P::triple([t389, t397, t412]);
+    let t465 = P::triple([t392, t398, t415]);
     // mass matrix M_p of the platform
-    let t469 = P::triple([t374, t411, t413]);
-    let t470 = platform_rotation[0][2] * c(0.013354412);
+    let t466 = P::triple([t375, t414, t416]);
+    let t467 = platform_rotation[0][2] * c(0.013354412);
     // mass matrix of the legs
-    let t471 = t446 + t447 + t463;
+    let t468 = t445 + t446 + t463;
     // mass matrix M_p of the platform
-    let t472 = w(0.032245600000000006) * t434;
+    let t469 = w(0.032245600000000006) * t436;
+    // rotation of the platform seen from the base
+    let t470 = P::triple([P::lane(t257, 2), P::lane(t257, 0), P::lane(t257, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t471 = P::triple([P::lane(t406, 1), P::lane(t406, 2), P::lane(t406, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t473 = P::triple([P::lane(t428, 0), P::lane(t429, 0), P::lane(t430, 0)]);
-    let t474 = P::triple([P::lane(t428, 1), P::lane(t429, 1), P::lane(t430, 1)]);
+    let t472 = P::triple([P::lane(t429, 0), P::lane(t430, 0), P::lane(t431, 0)]);
+    let t473 = P::triple([P::lane(t429, 1), P::lane(t430, 1), P::lane(t431, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t475 = mul_sub(P::splat(platform_acceleration[2]), t469, t452);
+    let t474 = mul_sub(P::splat(platform_acceleration[2]), t466, t452);
+    // moment of the inertia force about the platform origin
+    let t475 = neg_mul_add(t470, t471, mul_add(t294, t449, t433));
     // force along the actuator that balances the remaining wrench
-    let t476 = mul_add(t174, P::splat(P::lane(t382, 2)), t455);
-    let t477 = neg_mul_add(P::splat(P::lane(t401, 1)), t454, t456);
-    let t478 = neg_mul_add(P::splat(P::lane(t402, 1)), t454, t457);
+    let t476 = mul_add(t174, P::splat(P::lane(t384, 2)), t455);
+    let t477 = neg_mul_add(P::splat(P::lane(t402, 1)), t454, t456);
+    let t478 = neg_mul_add(P::splat(P::lane(t403, 1)), t454, t457);
     // constant and copied elements
     let t479 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
     let t480 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t481 = neg_mul_add(P::splat(t470), t479, t460);
+    let t481 = neg_mul_add(P::splat(t467), t479, t460);
     // constant and copied elements
     let t482 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // mass matrix M_p of the platform
     let t483 = neg_mul_add(w(0.032245600000000006) * t461, t480, t462);
-    let t484 = neg_mul_add(P::splat(platform_rotation[2][0]), t472, t471);
+    let t484 = neg_mul_add(P::splat(platform_rotation[2][0]), t469, t468);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t485 = P::triple([P::lane(t428, 2), P::lane(t429, 2), P::lane(t430, 2)]);
-    let t486 = P::neg_mul_add(P::lane(t14, 1), P::lane(t378, 0), t464);
-    let t487 = P::mul_add(P::lane(t257, 2), P::lane(t416, 0), t465);
-    let t488 = P::neg_mul_add(P::lane(t257, 2), P::lane(t416, 1), t466);
+    let t485 = P::triple([P::lane(t429, 2), P::lane(t430, 2), P::lane(t431, 2)]);
     // mass matrix M_p of the platform
-    let t489 = w(0.032245600000000006) * t458;
+    let t486 = w(0.032245600000000006) * t458;
     // inertia less external wrench that the actuators must balance
-    let t490 = mul_add(P::splat(platform_acceleration[0]), t468, t453) + t475;
+    let t487 = mul_add(P::splat(platform_acceleration[0]), t465, t453) + t474;
     // force along the actuator that balances the remaining wrench
-    let t491 = neg_mul_add(P::splat(P::lane(t401, 2)), t476, t477);
-    let t492 = neg_mul_add(P::splat(P::lane(t402, 2)), t476, t478);
+    let t488 = neg_mul_add(P::splat(P::lane(t402, 2)), t476, t477);
+    let t489 = neg_mul_add(P::splat(P::lane(t403, 2)), t476, t478);
     // constant and copied elements
-    let t493 =
+    let t490 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
     // force along the actuator that balances the remaining wrench
-    let t494 = t358 * P::splat(P::lane(t467, 1));
+    let t491 = t358 * P::splat(P::lane(t464, 1));
     // mass matrix M_p of the platform
-    let t495 = neg_mul_add(w(0.013354412) * t482, t493, t483);
-    let t496 = neg_mul_add(P::splat(platform_rotation[2][1]), t489, t484);
+    let t492 = neg_mul_add(w(0.013354412) * t482, t490, t483);
+    let t493 = neg_mul_add(P::splat(platform_rotation[2][1]), t486, t484);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t497 = P::mul_add(P::lane(t257, 0), P::lane(t416, 1), t486);
-    let t498 = P::neg_mul_add(P::lane(t257, 0), P::lane(t416, 2), t487);
-    let t499 = neg_mul_add(t388, P::splat(t488), t473 + t474 + t485);
+    let t494 = neg_mul_add(t391, P::splat(P::lane(t475, 0)), t472 + t473 + t485);
     // inertia less external wrench that the actuators must balance
-    let t500 = mul_add(P::splat(platform_acceleration[3]), t481, t490);
+    let t495 = mul_add(P::splat(platform_acceleration[3]), t481, t487);
     // mass matrix M_p of the platform
-    let t501 = w(0.013354412) * t479;
+    let t496 = w(0.013354412) * t479;
     // force along the actuator that balances the remaining wrench
-    let t502 = mul_add(t361, P::splat(P::lane(t467, 0)), t494);
-    let t503 = mul_sub(t383, P::splat(t433), t414 * P::splat(P::lane(t400, 0)));
+    let t497 = mul_add(t361, P::splat(P::lane(t464, 0)), t491);
+    let t498 = mul_sub(t385, P::splat(t435), t417 * P::splat(P::lane(t401, 0)));
     // mass matrix M_p of the platform
-    let t504 = neg_mul_add(P::splat(platform_rotation[2][2]), t501, t496);
+    let t499 = neg_mul_add(P::splat(platform_rotation[2][2]), t496, t493);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t505 = P::neg_mul_add(P::lane(t257, 1), P::lane(t416, 0), t497);
+    let t500 = mul_sub(t413, P::splat(P::lane(t475, 1)), t494);
     // inertia less external wrench that the actuators must balance
-    let t506 = mul_add(P::splat(platform_acceleration[4]), t495, t500);
+    let t501 = mul_add(P::splat(platform_acceleration[4]), t492, t495);
     // force along the actuator that balances the remaining wrench
-    let t507 = mul_add(t382, P::splat(P::lane(t467, 2)), t502);
-    let t508 = neg_mul_add(t454, P::splat(P::lane(t400, 1)), t503);
-    let t509 = P::triple([P::lane(t491, 2), P::lane(t491, 0), P::lane(t491, 1)]);
-    let t510 = P::triple([P::lane(t492, 1), P::lane(t492, 2), P::lane(t492, 0)]);
+    let t502 = mul_add(t384, P::splat(P::lane(t464, 2)), t497);
+    let t503 = neg_mul_add(t454, P::splat(P::lane(t401, 1)), t498);
+    let t504 = P::triple([P::lane(t488, 2), P::lane(t488, 0), P::lane(t488, 1)]);
+    let t505 = P::triple([P::lane(t489, 1), P::lane(t489, 2), P::lane(t489, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t511 = mul_add(t435, P::splat(t505), mul_sub(t410, P::splat(t498), t499));
+    let t506 = mul_add(t437, P::splat(P::lane(t475, 2)), t500);
     // force along the actuator that balances the remaining wrench
-    let t512 = P::triple([P::lane(t491, 1), P::lane(t491, 2), P::lane(t491, 0)]);
-    let t513 = P::triple([P::lane(t492, 2), P::lane(t492, 0), P::lane(t492, 1)]);
-    let t514 = neg_mul_add(t476, P::splat(P::lane(t400, 2)), t508);
-    let t515 = mul_sub(t512, t513, t509 * t510);
+    let t507 = P::triple([P::lane(t488, 1), P::lane(t488, 2), P::lane(t488, 0)]);
+    let t508 = P::triple([P::lane(t489, 2), P::lane(t489, 0), P::lane(t489, 1)]);
+    let t509 = neg_mul_add(t476, P::splat(P::lane(t401, 2)), t503);
+    let t510 = mul_sub(t507, t508, t504 * t505);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t516 = P::triple([P::lane(t400, 0), P::lane(t401, 0), P::lane(t402, 0)]);
+    let t511 = P::triple([P::lane(t401, 0), P::lane(t402, 0), P::lane(t403, 0)]);
     // inertia less external wrench that the actuators must balance
-    let t517 = t511 + mul_add(P::splat(platform_acceleration[5]), t504, t506);
+    let t512 = t506 + mul_add(P::splat(platform_acceleration[5]), t499, t501);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t518 = P::triple([P::lane(t400, 1), P::lane(t401, 1), P::lane(t402, 1)]);
+    let t513 = P::triple([P::lane(t401, 1), P::lane(t402, 1), P::lane(t403, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t519 = mul_sub(P::splat(t433), t517, P::splat(P::lane(t507, 0)) * t516);
+    let t514 = mul_sub(P::splat(t435), t512, P::splat(P::lane(t502, 0)) * t511);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t520 = P::triple([P::lane(t400, 2), P::lane(t401, 2), P::lane(t402, 2)]);
+    let t515 = P::triple([P::lane(t401, 2), P::lane(t402, 2), P::lane(t403, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t521 = P::lane(t514, 1) * P::lane(t515, 1);
-    let t522 = P::triple([P::lane(t514, 1), P::lane(t514, 2), P::lane(t514, 0)]);
-    let t523 = neg_mul_add(P::splat(P::lane(t507, 1)), t518, t519);
-    let t524 = P::triple([P::lane(t514, 2), P::lane(t514, 0), P::lane(t514, 1)]);
-    let t525 = P::mul_add(P::lane(t514, 0), P::lane(t515, 0), t521);
-    let t526 = neg_mul_add(P::splat(P::lane(t507, 2)), t520, t523);
-    let t527 = P::triple([P::lane(t414, 0), P::lane(t454, 0), P::lane(t476, 0)]);
-    let t528 = mul_sub(t509, t522, t512 * t524);
-    let t529 = c(1.0) / P::mul_add(P::lane(t514, 2), P::lane(t515, 2), t525);
-    let t530 = P::triple([P::lane(t414, 1), P::lane(t454, 1), P::lane(t476, 1)]);
-    let t531 = mul_sub(t510, t524, t513 * t522) * P::splat(P::lane(t526, 1));
-    let t532 = mul_add(t515, P::splat(P::lane(t526, 0)), t531);
-    let t533 = P::triple([P::lane(t414, 2), P::lane(t454, 2), P::lane(t476, 2)]);
-    let t534 = P::splat(t529) * mul_add(t528, P::splat(P::lane(t526, 2)), t532);
-    let t535 = neg_mul_add(t527, P::splat(P::lane(t534, 0)), t507);
-    let t536 = neg_mul_add(t530, P::splat(P::lane(t534, 1)), t535);
-    let t537 = neg_mul_add(t533, P::splat(P::lane(t534, 2)), t536);
-    let t538 = P::splat(c(1.0) / t433) * t537;
+    let t516 = P::lane(t509, 1) * P::lane(t510, 1);
+    let t517 = P::triple([P::lane(t509, 1), P::lane(t509, 2), P::lane(t509, 0)]);
+    let t518 = neg_mul_add(P::splat(P::lane(t502, 1)), t513, t514);
+    let t519 = P::triple([P::lane(t509, 2), P::lane(t509, 0), P::lane(t509, 1)]);
+    let t520 = P::mul_add(P::lane(t509, 0), P::lane(t510, 0), t516);
+    let t521 = neg_mul_add(P::splat(P::lane(t502, 2)), t515, t518);
+    let t522 = P::triple([P::lane(t417, 0), P::lane(t454, 0), P::lane(t476, 0)]);
+    let t523 = mul_sub(t504, t517, t507 * t519);
+    let t524 = c(1.0) / P::mul_add(P::lane(t509, 2), P::lane(t510, 2), t520);
+    let t525 = P::triple([P::lane(t417, 1), P::lane(t454, 1), P::lane(t476, 1)]);
+    let t526 = mul_sub(t505, t519, t508 * t517) * P::splat(P::lane(t521, 1));
+    let t527 = mul_add(t510, P::splat(P::lane(t521, 0)), t526);
+    let t528 = P::triple([P::lane(t417, 2), P::lane(t454, 2), P::lane(t476, 2)]);
+    let t529 = P::splat(t524) * mul_add(t523, P::splat(P::lane(t521, 2)), t527);
+    let t530 = neg_mul_add(t522, P::splat(P::lane(t529, 0)), t502);
+    let t531 = neg_mul_add(t525, P::splat(P::lane(t529, 1)), t530);
+    let t532 = neg_mul_add(t528, P::splat(P::lane(t529, 2)), t531);
+    let t533 = P::splat(c(1.0) / t435) * t532;
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t126, 0);
     // leg 2: actuator length d
@@ -22966,49 +22972,49 @@ pub fn control_in_lanes<P: Triple>(
     jacobian_dp[0][1] = P::lane(t173, 0);
     jacobian_dp[0][2] = P::lane(t174, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t383, 0);
-    jacobian_dp[0][4] = P::lane(t384, 0);
-    jacobian_dp[0][5] = P::lane(t385, 0);
+    jacobian_dp[0][3] = P::lane(t385, 0);
+    jacobian_dp[0][4] = P::lane(t386, 0);
+    jacobian_dp[0][5] = P::lane(t387, 0);
     // leg 2: gradient of the actuator length
     jacobian_dp[1][0] = P::lane(t151, 0);
     jacobian_dp[1][1] = P::lane(t159, 0);
     jacobian_dp[1][2] = P::lane(t165, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t400, 0);
-    jacobian_dp[1][4] = P::lane(t401, 0);
-    jacobian_dp[1][5] = P::lane(t402, 0);
+    jacobian_dp[1][3] = P::lane(t401, 0);
+    jacobian_dp[1][4] = P::lane(t402, 0);
+    jacobian_dp[1][5] = P::lane(t403, 0);
     // leg 3: gradient of the actuator length
     jacobian_dp[2][0] = P::lane(t158, 1);
     jacobian_dp[2][1] = P::lane(t173, 1);
     jacobian_dp[2][2] = P::lane(t174, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t383, 1);
-    jacobian_dp[2][4] = P::lane(t384, 1);
-    jacobian_dp[2][5] = P::lane(t385, 1);
+    jacobian_dp[2][3] = P::lane(t385, 1);
+    jacobian_dp[2][4] = P::lane(t386, 1);
+    jacobian_dp[2][5] = P::lane(t387, 1);
     // leg 4: gradient of the actuator length
     jacobian_dp[3][0] = P::lane(t158, 2);
     jacobian_dp[3][1] = P::lane(t173, 2);
     jacobian_dp[3][2] = P::lane(t174, 2);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t383, 2);
-    jacobian_dp[3][4] = P::lane(t384, 2);
-    jacobian_dp[3][5] = P::lane(t385, 2);
+    jacobian_dp[3][3] = P::lane(t385, 2);
+    jacobian_dp[3][4] = P::lane(t386, 2);
+    jacobian_dp[3][5] = P::lane(t387, 2);
     // leg 5: gradient of the actuator length
     jacobian_dp[4][0] = P::lane(t151, 1);
     jacobian_dp[4][1] = P::lane(t159, 1);
     jacobian_dp[4][2] = P::lane(t165, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t400, 1);
-    jacobian_dp[4][4] = P::lane(t401, 1);
-    jacobian_dp[4][5] = P::lane(t402, 1);
+    jacobian_dp[4][3] = P::lane(t401, 1);
+    jacobian_dp[4][4] = P::lane(t402, 1);
+    jacobian_dp[4][5] = P::lane(t403, 1);
     // leg 6: gradient of the actuator length
     jacobian_dp[5][0] = P::lane(t151, 2);
     jacobian_dp[5][1] = P::lane(t159, 2);
     jacobian_dp[5][2] = P::lane(t165, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t400, 2);
-    jacobian_dp[5][4] = P::lane(t401, 2);
-    jacobian_dp[5][5] = P::lane(t402, 2);
+    jacobian_dp[5][3] = P::lane(t401, 2);
+    jacobian_dp[5][4] = P::lane(t402, 2);
+    jacobian_dp[5][5] = P::lane(t403, 2);
     // mass matrix M_p of the platform
     mass_matrix_p[0][0] = P::lane(t352, 0);
     // mass matrix of the legs
@@ -23016,36 +23022,36 @@ pub fn control_in_lanes<P: Triple>(
     mass_matrix_p[0][2] = P::lane(t288, 2);
     mass_matrix_p[1][0] = P::lane(t288, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t337, 1);
+    mass_matrix_p[1][1] = P::lane(t338, 1);
     // mass matrix of the legs
     mass_matrix_p[1][2] = P::lane(t318, 2);
     mass_matrix_p[2][0] = P::lane(t288, 2);
     mass_matrix_p[2][1] = P::lane(t318, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t370, 2);
+    mass_matrix_p[2][2] = P::lane(t371, 2);
     mass_matrix_p[3][3] = P::lane(t481, 0);
     mass_matrix_p[3][4] = P::lane(t481, 1);
     mass_matrix_p[3][5] = P::lane(t481, 2);
     mass_matrix_p[4][3] = P::lane(t481, 1);
-    mass_matrix_p[4][4] = P::lane(t495, 1);
-    mass_matrix_p[4][5] = P::lane(t495, 2);
+    mass_matrix_p[4][4] = P::lane(t492, 1);
+    mass_matrix_p[4][5] = P::lane(t492, 2);
     mass_matrix_p[5][3] = P::lane(t481, 2);
-    mass_matrix_p[5][4] = P::lane(t495, 2);
-    mass_matrix_p[5][5] = P::lane(t504, 2);
+    mass_matrix_p[5][4] = P::lane(t492, 2);
+    mass_matrix_p[5][5] = P::lane(t499, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t440, 0);
-    total_bias[1] = P::lane(t440, 1);
-    total_bias[2] = P::lane(t440, 2);
-    total_bias[3] = P::lane(t511, 0);
-    total_bias[4] = P::lane(t511, 1);
-    total_bias[5] = P::lane(t511, 2);
+    total_bias[0] = P::lane(t442, 0);
+    total_bias[1] = P::lane(t442, 1);
+    total_bias[2] = P::lane(t442, 2);
+    total_bias[3] = P::lane(t506, 0);
+    total_bias[4] = P::lane(t506, 1);
+    total_bias[5] = P::lane(t506, 2);
     // force along the actuator that balances the remaining wrench
-    inverse_dynamics[0] = P::lane(t534, 0);
-    inverse_dynamics[1] = P::lane(t538, 0);
-    inverse_dynamics[2] = P::lane(t534, 1);
-    inverse_dynamics[3] = P::lane(t534, 2);
-    inverse_dynamics[4] = P::lane(t538, 1);
-    inverse_dynamics[5] = P::lane(t538, 2);
+    inverse_dynamics[0] = P::lane(t529, 0);
+    inverse_dynamics[1] = P::lane(t533, 0);
+    inverse_dynamics[2] = P::lane(t529, 1);
+    inverse_dynamics[3] = P::lane(t529, 2);
+    inverse_dynamics[4] = P::lane(t533, 1);
+    inverse_dynamics[5] = P::lane(t533, 2);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).

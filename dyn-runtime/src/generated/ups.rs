@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 d04f97c5acf1e5f8b40ca4147ca7e049f8ffba79a2b5fda1c98c53b255edf651
+// graph     ups.json, sha256 72397907c073aed1bf3e63df770aeecbe6a57ee55c0db96a4203977ba946cca3
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -15761,67 +15761,68 @@ pub fn bias<T: Scalar>(
     let t728 = t693 + (t687 + t690) + t727;
     let t729 = neg_mul_add(t78, t613, mul_add(t75, t615, t697));
     let t730 = t694 + (t688 + t691) + t729;
+    // moment of the inertia force about the platform origin
+    let t731 = mul_sub(t15, t722, t24 * t716);
+    let t732 = mul_add(t12, t720, mul_sub(t18, t724, t27 * t718));
+    let t733 = mul_add(t102, t649, t731 + neg_mul_add(t21, t714, t732));
+    let t734 = t726 + neg_mul_add(t105, t647, t733);
+    let t735 = mul_sub(t24, t710, t6 * t722);
+    let t736 = mul_add(t21, t708, mul_sub(t27, t712, t9 * t724));
+    let t737 = mul_add(t105, t645, t735 + neg_mul_add(t3, t720, t736));
+    let t738 = t728 + neg_mul_add(t99, t649, t737);
+    let t739 = mul_sub(t6, t716, t15 * t710);
+    let t740 = mul_add(t3, t714, mul_sub(t9, t718, t18 * t712));
+    let t741 = mul_add(t99, t647, t739 + neg_mul_add(t12, t708, t740));
+    let t742 = t730 + neg_mul_add(t102, t645, t741);
     // leg 1: force along the actuator that reaches the platform
-    let t731 = neg_mul_add(t556, t557, mul_sub(t554, t555, t652));
-    let t732 = neg_mul_add(t558, t563, t731);
+    let t743 = neg_mul_add(t556, t557, mul_sub(t554, t555, t652));
+    let t744 = neg_mul_add(t558, t563, t743);
     // leg 2: force along the actuator that reaches the platform
-    let t733 = neg_mul_add(t572, t573, mul_sub(t570, t571, t655));
-    let t734 = neg_mul_add(t574, t579, t733);
+    let t745 = neg_mul_add(t572, t573, mul_sub(t570, t571, t655));
+    let t746 = neg_mul_add(t574, t579, t745);
     // leg 3: force along the actuator that reaches the platform
-    let t735 = neg_mul_add(t588, t589, mul_sub(t586, t587, t658));
-    let t736 = neg_mul_add(t590, t595, t735);
+    let t747 = neg_mul_add(t588, t589, mul_sub(t586, t587, t658));
+    let t748 = neg_mul_add(t590, t595, t747);
     // leg 4: force along the actuator that reaches the platform
-    let t737 = neg_mul_add(t604, t605, mul_sub(t602, t603, t661));
-    let t738 = neg_mul_add(t606, t611, t737);
+    let t749 = neg_mul_add(t604, t605, mul_sub(t602, t603, t661));
+    let t750 = neg_mul_add(t606, t611, t749);
     // leg 5: force along the actuator that reaches the platform
-    let t739 = neg_mul_add(t620, t621, mul_sub(t618, t619, t664));
-    let t740 = neg_mul_add(t622, t627, t739);
+    let t751 = neg_mul_add(t620, t621, mul_sub(t618, t619, t664));
+    let t752 = neg_mul_add(t622, t627, t751);
     // leg 6: force along the actuator that reaches the platform
-    let t741 = neg_mul_add(t636, t637, mul_sub(t634, t635, t667));
-    let t742 = neg_mul_add(t638, t643, t741);
+    let t753 = neg_mul_add(t636, t637, mul_sub(t634, t635, t667));
+    let t754 = neg_mul_add(t638, t643, t753);
     // C_p v_p - C_b v_b + gravity, spring and damping force
-    let t743 = mul_add(t129, t736, mul_add(t123, t732, t126 * t734));
-    let t744 = mul_add(t135, t740, mul_add(t132, t738, t743));
-    let t745 = t744 + mul_add(t138, t742, t706);
-    let t746 = mul_add(t127, t736, mul_add(t121, t732, t124 * t734));
-    let t747 = mul_add(t133, t740, mul_add(t130, t738, t746));
-    let t748 = t747 + mul_add(t136, t742, t700);
-    let t749 = mul_add(t128, t736, mul_add(t122, t732, t125 * t734));
-    let t750 = mul_add(t134, t740, mul_add(t131, t738, t749));
-    let t751 = t750 + mul_add(t137, t742, t703);
-    let t752 = mul_add(base_rotation[0][0], t748, base_rotation[0][1] * t751);
-    bias[0] = -mul_add(base_rotation[0][2], t745, t752);
-    let t753 = mul_add(base_rotation[1][0], t748, base_rotation[1][1] * t751);
-    bias[1] = -mul_add(base_rotation[1][2], t745, t753);
-    let t754 = mul_add(base_rotation[2][0], t748, base_rotation[2][1] * t751);
-    bias[2] = -mul_add(base_rotation[2][2], t745, t754);
-    let t755 = mul_sub(t6, t716, t15 * t710);
-    let t756 = mul_add(t3, t714, mul_sub(t9, t718, t18 * t712));
-    let t757 = mul_add(t99, t647, t755 + neg_mul_add(t12, t708, t756));
-    let t758 = t730 + neg_mul_add(t102, t645, t757);
-    let t759 = mul_add(t676, t736, mul_add(t670, t732, t673 * t734));
-    let t760 = mul_add(t682, t740, mul_add(t679, t738, t759));
-    let t761 = t758 + mul_add(t685, t742, t760);
-    let t762 = mul_sub(t15, t722, t24 * t716);
-    let t763 = mul_add(t12, t720, mul_sub(t18, t724, t27 * t718));
-    let t764 = mul_add(t102, t649, t762 + neg_mul_add(t21, t714, t763));
-    let t765 = t726 + neg_mul_add(t105, t647, t764);
-    let t766 = mul_add(t674, t736, mul_add(t668, t732, t671 * t734));
-    let t767 = mul_add(t680, t740, mul_add(t677, t738, t766));
-    let t768 = t765 + mul_add(t683, t742, t767);
-    let t769 = mul_sub(t24, t710, t6 * t722);
-    let t770 = mul_add(t21, t708, mul_sub(t27, t712, t9 * t724));
-    let t771 = mul_add(t105, t645, t769 + neg_mul_add(t3, t720, t770));
-    let t772 = t728 + neg_mul_add(t99, t649, t771);
-    let t773 = mul_add(t675, t736, mul_add(t669, t732, t672 * t734));
-    let t774 = mul_add(t681, t740, mul_add(t678, t738, t773));
-    let t775 = t772 + mul_add(t684, t742, t774);
-    let t776 = mul_add(base_rotation[0][0], t768, base_rotation[0][1] * t775);
-    bias[3] = -mul_add(base_rotation[0][2], t761, t776);
-    let t777 = mul_add(base_rotation[1][0], t768, base_rotation[1][1] * t775);
-    bias[4] = -mul_add(base_rotation[1][2], t761, t777);
-    let t778 = mul_add(base_rotation[2][0], t768, base_rotation[2][1] * t775);
-    bias[5] = -mul_add(base_rotation[2][2], t761, t778);
+    let t755 = mul_add(t129, t748, mul_add(t123, t744, t126 * t746));
+    let t756 = mul_add(t135, t752, mul_add(t132, t750, t755));
+    let t757 = t756 + mul_add(t138, t754, t706);
+    let t758 = mul_add(t127, t748, mul_add(t121, t744, t124 * t746));
+    let t759 = mul_add(t133, t752, mul_add(t130, t750, t758));
+    let t760 = t759 + mul_add(t136, t754, t700);
+    let t761 = mul_add(t128, t748, mul_add(t122, t744, t125 * t746));
+    let t762 = mul_add(t134, t752, mul_add(t131, t750, t761));
+    let t763 = t762 + mul_add(t137, t754, t703);
+    let t764 = mul_add(base_rotation[0][0], t760, base_rotation[0][1] * t763);
+    bias[0] = -mul_add(base_rotation[0][2], t757, t764);
+    let t765 = mul_add(base_rotation[1][0], t760, base_rotation[1][1] * t763);
+    bias[1] = -mul_add(base_rotation[1][2], t757, t765);
+    let t766 = mul_add(base_rotation[2][0], t760, base_rotation[2][1] * t763);
+    bias[2] = -mul_add(base_rotation[2][2], t757, t766);
+    let t767 = mul_add(t676, t748, mul_add(t670, t744, t673 * t746));
+    let t768 = mul_add(t682, t752, mul_add(t679, t750, t767));
+    let t769 = t742 + mul_add(t685, t754, t768);
+    let t770 = mul_add(t674, t748, mul_add(t668, t744, t671 * t746));
+    let t771 = mul_add(t680, t752, mul_add(t677, t750, t770));
+    let t772 = t734 + mul_add(t683, t754, t771);
+    let t773 = mul_add(t675, t748, mul_add(t669, t744, t672 * t746));
+    let t774 = mul_add(t681, t752, mul_add(t678, t750, t773));
+    let t775 = t738 + mul_add(t684, t754, t774);
+    let t776 = mul_add(base_rotation[0][0], t772, base_rotation[0][1] * t775);
+    bias[3] = -mul_add(base_rotation[0][2], t769, t776);
+    let t777 = mul_add(base_rotation[1][0], t772, base_rotation[1][1] * t775);
+    bias[4] = -mul_add(base_rotation[1][2], t769, t777);
+    let t778 = mul_add(base_rotation[2][0], t772, base_rotation[2][1] * t775);
+    bias[5] = -mul_add(base_rotation[2][2], t769, t778);
 }
 
 /// The whole of (49) in one call, equation (49).
@@ -21341,108 +21342,109 @@ pub fn control<T: Scalar>(
         let t1039 = mul_add(t375, t783, t1038);
         let t1040 = mul_sub(t375, t782, mul_sub(t301, t765, t346 * t781));
         let t1041 = mul_add(t390, t783, t1040);
+        // moment of the inertia force about the platform origin
+        let t1042 = mul_add(t63, t953, mul_sub(t42, t940, t1012));
+        let t1043 = mul_sub(t84, t966, mul_sub(t66, t951, t1042));
+        let t1044 = mul_sub(t105, t979, mul_sub(t87, t964, t1043));
+        let t1045 = mul_sub(t126, t992, mul_sub(t108, t977, t1044));
+        let t1046 = mul_sub(t147, t1005, mul_sub(t129, t990, t1045));
+        let t1047 = mul_sub(t12, t1037, mul_sub(t150, t1003, t1046));
+        let t1048 = mul_sub(t15, t1039, mul_sub(t21, t1031, t1047));
+        let t1049 = mul_sub(t18, t1041, mul_sub(t24, t1033, t1048));
+        let t1050 = mul_sub(t27, t1035, t1049);
+        let t1051 = mul_add(t66, t949, mul_sub(t45, t936, t1013));
+        let t1052 = mul_sub(t87, t962, mul_sub(t60, t953, t1051));
+        let t1053 = mul_sub(t108, t975, mul_sub(t81, t966, t1052));
+        let t1054 = mul_sub(t129, t988, mul_sub(t102, t979, t1053));
+        let t1055 = mul_sub(t150, t1001, mul_sub(t123, t992, t1054));
+        let t1056 = mul_sub(t21, t1025, mul_sub(t144, t1005, t1055));
+        let t1057 = mul_sub(t24, t1027, mul_sub(t3, t1037, t1056));
+        let t1058 = mul_sub(t27, t1029, mul_sub(t6, t1039, t1057));
+        let t1059 = mul_sub(t9, t1041, t1058);
+        let t1060 = mul_add(t60, t951, mul_sub(t39, t938, t1014));
+        let t1061 = mul_sub(t81, t964, mul_sub(t63, t949, t1060));
+        let t1062 = mul_sub(t102, t977, mul_sub(t84, t962, t1061));
+        let t1063 = mul_sub(t123, t990, mul_sub(t105, t975, t1062));
+        let t1064 = mul_sub(t144, t1003, mul_sub(t126, t988, t1063));
+        let t1065 = mul_sub(t3, t1031, mul_sub(t147, t1001, t1064));
+        let t1066 = mul_sub(t6, t1033, mul_sub(t12, t1025, t1065));
+        let t1067 = mul_sub(t9, t1035, mul_sub(t15, t1027, t1066));
+        let t1068 = mul_sub(t18, t1029, t1067);
         // leg 1: force along the actuator that reaches the platform
-        let t1042 = mul_sub(t402, t934, mul_add(t391, t928, t929));
-        let t1043 = mul_add(parameters.axial_stiffness[0], t1006, t1042);
-        let t1044 = mul_sub(parameters.axial_damping[0], t687, t1043);
+        let t1069 = mul_sub(t402, t934, mul_add(t391, t928, t929));
+        let t1070 = mul_add(parameters.axial_stiffness[0], t1006, t1069);
+        let t1071 = mul_sub(parameters.axial_damping[0], t687, t1070);
         // leg 2: force along the actuator that reaches the platform
-        let t1045 = mul_sub(t414, t947, mul_add(t403, t941, t942));
-        let t1046 = mul_add(parameters.axial_stiffness[1], t1007, t1045);
-        let t1047 = mul_sub(parameters.axial_damping[1], t688, t1046);
+        let t1072 = mul_sub(t414, t947, mul_add(t403, t941, t942));
+        let t1073 = mul_add(parameters.axial_stiffness[1], t1007, t1072);
+        let t1074 = mul_sub(parameters.axial_damping[1], t688, t1073);
         // leg 3: force along the actuator that reaches the platform
-        let t1048 = mul_sub(t426, t960, mul_add(t415, t954, t955));
-        let t1049 = mul_add(parameters.axial_stiffness[2], t1008, t1048);
-        let t1050 = mul_sub(parameters.axial_damping[2], t689, t1049);
+        let t1075 = mul_sub(t426, t960, mul_add(t415, t954, t955));
+        let t1076 = mul_add(parameters.axial_stiffness[2], t1008, t1075);
+        let t1077 = mul_sub(parameters.axial_damping[2], t689, t1076);
         // leg 4: force along the actuator that reaches the platform
-        let t1051 = mul_sub(t438, t973, mul_add(t427, t967, t968));
-        let t1052 = mul_add(parameters.axial_stiffness[3], t1009, t1051);
-        let t1053 = mul_sub(parameters.axial_damping[3], t690, t1052);
+        let t1078 = mul_sub(t438, t973, mul_add(t427, t967, t968));
+        let t1079 = mul_add(parameters.axial_stiffness[3], t1009, t1078);
+        let t1080 = mul_sub(parameters.axial_damping[3], t690, t1079);
         // leg 5: force along the actuator that reaches the platform
-        let t1054 = mul_sub(t450, t986, mul_add(t439, t980, t981));
-        let t1055 = mul_add(parameters.axial_stiffness[4], t1010, t1054);
-        let t1056 = mul_sub(parameters.axial_damping[4], t691, t1055);
+        let t1081 = mul_sub(t450, t986, mul_add(t439, t980, t981));
+        let t1082 = mul_add(parameters.axial_stiffness[4], t1010, t1081);
+        let t1083 = mul_sub(parameters.axial_damping[4], t691, t1082);
         // leg 6: force along the actuator that reaches the platform
-        let t1057 = mul_sub(t462, t999, mul_add(t451, t993, t994));
-        let t1058 = mul_add(parameters.axial_stiffness[5], t1011, t1057);
-        let t1059 = mul_sub(parameters.axial_damping[5], t692, t1058);
+        let t1084 = mul_sub(t462, t999, mul_add(t451, t993, t994));
+        let t1085 = mul_add(parameters.axial_stiffness[5], t1011, t1084);
+        let t1086 = mul_sub(parameters.axial_damping[5], t692, t1085);
         // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-        let t1060 = mul_add(base_rotation[0][0], t1017, base_rotation[0][1] * t1020);
-        let t1061 = mul_add(t194, t1044, mul_add(base_rotation[0][2], t1023, t1060));
-        let t1062 = mul_add(t206, t1050, mul_add(t200, t1047, t1061));
-        let t1063 = mul_add(t218, t1056, mul_add(t212, t1053, t1062));
-        let t1064 = mul_add(t224, t1059, t1063);
-        total_bias[0] = t1064;
-        let t1065 = mul_add(base_rotation[1][0], t1017, base_rotation[1][1] * t1020);
-        let t1066 = mul_add(t196, t1044, mul_add(base_rotation[1][2], t1023, t1065));
-        let t1067 = mul_add(t208, t1050, mul_add(t202, t1047, t1066));
-        let t1068 = mul_add(t220, t1056, mul_add(t214, t1053, t1067));
-        let t1069 = mul_add(t226, t1059, t1068);
-        total_bias[1] = t1069;
-        let t1070 = mul_add(base_rotation[2][0], t1017, base_rotation[2][1] * t1020);
-        let t1071 = mul_add(t198, t1044, mul_add(base_rotation[2][2], t1023, t1070));
-        let t1072 = mul_add(t210, t1050, mul_add(t204, t1047, t1071));
-        let t1073 = mul_add(t222, t1056, mul_add(t216, t1053, t1072));
-        let t1074 = mul_add(t228, t1059, t1073);
-        total_bias[2] = t1074;
-        let t1075 = mul_add(t60, t951, mul_sub(t39, t938, t1014));
-        let t1076 = mul_sub(t81, t964, mul_sub(t63, t949, t1075));
-        let t1077 = mul_sub(t102, t977, mul_sub(t84, t962, t1076));
-        let t1078 = mul_sub(t123, t990, mul_sub(t105, t975, t1077));
-        let t1079 = mul_sub(t144, t1003, mul_sub(t126, t988, t1078));
-        let t1080 = mul_sub(t3, t1031, mul_sub(t147, t1001, t1079));
-        let t1081 = mul_sub(t6, t1033, mul_sub(t12, t1025, t1080));
-        let t1082 = mul_sub(t9, t1035, mul_sub(t15, t1027, t1081));
-        let t1083 = mul_sub(t18, t1029, t1082);
-        let t1084 = mul_add(t63, t953, mul_sub(t42, t940, t1012));
-        let t1085 = mul_sub(t84, t966, mul_sub(t66, t951, t1084));
-        let t1086 = mul_sub(t105, t979, mul_sub(t87, t964, t1085));
-        let t1087 = mul_sub(t126, t992, mul_sub(t108, t977, t1086));
-        let t1088 = mul_sub(t147, t1005, mul_sub(t129, t990, t1087));
-        let t1089 = mul_sub(t12, t1037, mul_sub(t150, t1003, t1088));
-        let t1090 = mul_sub(t15, t1039, mul_sub(t21, t1031, t1089));
-        let t1091 = mul_sub(t18, t1041, mul_sub(t24, t1033, t1090));
-        let t1092 = mul_sub(t27, t1035, t1091);
-        let t1093 = mul_add(t66, t949, mul_sub(t45, t936, t1013));
-        let t1094 = mul_sub(t87, t962, mul_sub(t60, t953, t1093));
-        let t1095 = mul_sub(t108, t975, mul_sub(t81, t966, t1094));
-        let t1096 = mul_sub(t129, t988, mul_sub(t102, t979, t1095));
-        let t1097 = mul_sub(t150, t1001, mul_sub(t123, t992, t1096));
-        let t1098 = mul_sub(t21, t1025, mul_sub(t144, t1005, t1097));
-        let t1099 = mul_sub(t24, t1027, mul_sub(t3, t1037, t1098));
-        let t1100 = mul_sub(t27, t1029, mul_sub(t6, t1039, t1099));
-        let t1101 = mul_sub(t9, t1041, t1100);
-        let t1102 = mul_add(base_rotation[0][0], t1092, base_rotation[0][1] * t1101);
-        let t1103 = mul_sub(t229, t1044, mul_add(base_rotation[0][2], t1083, t1102));
-        let t1104 = mul_add(t235, t1050, mul_add(t232, t1047, t1103));
-        let t1105 = mul_add(t241, t1056, mul_add(t238, t1053, t1104));
-        let t1106 = mul_add(t244, t1059, t1105);
+        let t1087 = mul_add(base_rotation[0][0], t1017, base_rotation[0][1] * t1020);
+        let t1088 = mul_add(t194, t1071, mul_add(base_rotation[0][2], t1023, t1087));
+        let t1089 = mul_add(t206, t1077, mul_add(t200, t1074, t1088));
+        let t1090 = mul_add(t218, t1083, mul_add(t212, t1080, t1089));
+        let t1091 = mul_add(t224, t1086, t1090);
+        total_bias[0] = t1091;
+        let t1092 = mul_add(base_rotation[1][0], t1017, base_rotation[1][1] * t1020);
+        let t1093 = mul_add(t196, t1071, mul_add(base_rotation[1][2], t1023, t1092));
+        let t1094 = mul_add(t208, t1077, mul_add(t202, t1074, t1093));
+        let t1095 = mul_add(t220, t1083, mul_add(t214, t1080, t1094));
+        let t1096 = mul_add(t226, t1086, t1095);
+        total_bias[1] = t1096;
+        let t1097 = mul_add(base_rotation[2][0], t1017, base_rotation[2][1] * t1020);
+        let t1098 = mul_add(t198, t1071, mul_add(base_rotation[2][2], t1023, t1097));
+        let t1099 = mul_add(t210, t1077, mul_add(t204, t1074, t1098));
+        let t1100 = mul_add(t222, t1083, mul_add(t216, t1080, t1099));
+        let t1101 = mul_add(t228, t1086, t1100);
+        total_bias[2] = t1101;
+        let t1102 = mul_add(base_rotation[0][0], t1050, base_rotation[0][1] * t1059);
+        let t1103 = mul_sub(t229, t1071, mul_add(base_rotation[0][2], t1068, t1102));
+        let t1104 = mul_add(t235, t1077, mul_add(t232, t1074, t1103));
+        let t1105 = mul_add(t241, t1083, mul_add(t238, t1080, t1104));
+        let t1106 = mul_add(t244, t1086, t1105);
         total_bias[3] = t1106;
-        let t1107 = mul_add(base_rotation[1][0], t1092, base_rotation[1][1] * t1101);
-        let t1108 = mul_sub(t230, t1044, mul_add(base_rotation[1][2], t1083, t1107));
-        let t1109 = mul_add(t236, t1050, mul_add(t233, t1047, t1108));
-        let t1110 = mul_add(t242, t1056, mul_add(t239, t1053, t1109));
-        let t1111 = mul_add(t245, t1059, t1110);
+        let t1107 = mul_add(base_rotation[1][0], t1050, base_rotation[1][1] * t1059);
+        let t1108 = mul_sub(t230, t1071, mul_add(base_rotation[1][2], t1068, t1107));
+        let t1109 = mul_add(t236, t1077, mul_add(t233, t1074, t1108));
+        let t1110 = mul_add(t242, t1083, mul_add(t239, t1080, t1109));
+        let t1111 = mul_add(t245, t1086, t1110);
         total_bias[4] = t1111;
-        let t1112 = mul_add(base_rotation[2][0], t1092, base_rotation[2][1] * t1101);
-        let t1113 = mul_sub(t231, t1044, mul_add(base_rotation[2][2], t1083, t1112));
-        let t1114 = mul_add(t237, t1050, mul_add(t234, t1047, t1113));
-        let t1115 = mul_add(t243, t1056, mul_add(t240, t1053, t1114));
-        let t1116 = mul_add(t246, t1059, t1115);
+        let t1112 = mul_add(base_rotation[2][0], t1050, base_rotation[2][1] * t1059);
+        let t1113 = mul_sub(t231, t1071, mul_add(base_rotation[2][2], t1068, t1112));
+        let t1114 = mul_add(t237, t1077, mul_add(t234, t1074, t1113));
+        let t1115 = mul_add(t243, t1083, mul_add(t240, t1080, t1114));
+        let t1116 = mul_add(t246, t1086, t1115);
         total_bias[5] = t1116;
         // inertia less external wrench that the actuators must balance
-        let t1117 = mul_sub(platform_acceleration[0], t545, external_wrench[0] - t1064);
+        let t1117 = mul_sub(platform_acceleration[0], t545, external_wrench[0] - t1091);
         let t1118 = mul_sub(platform_acceleration[1], t465, t1117);
         let t1119 = mul_add(platform_acceleration[2], t468, t1118);
         let t1120 = mul_add(platform_acceleration[3], t474, t1119);
         let t1121 = mul_sub(platform_acceleration[4], t548, t1120);
         let t1122 = neg_mul_add(platform_acceleration[5], t551, t1121);
-        let t1123 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1069);
+        let t1123 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1096);
         let t1124 = mul_sub(platform_acceleration[1], t552, t1123);
         let t1125 = mul_sub(platform_acceleration[2], t489, t1124);
         let t1126 = mul_add(platform_acceleration[3], t553, t1125);
         let t1127 = mul_add(platform_acceleration[4], t508, t1126);
         let t1128 = mul_sub(platform_acceleration[5], t556, t1127);
-        let t1129 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1074);
+        let t1129 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1101);
         let t1130 = mul_add(platform_acceleration[1], t489, t1129);
         let t1131 = mul_sub(platform_acceleration[2], t557, t1130);
         let t1132 = mul_add(platform_acceleration[3], t558, t1131);
@@ -28837,58 +28839,58 @@ pub fn control_in_lanes<P: Triple>(
     let t147 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t134);
     // legs 1, 2, 3: inertial rate of that gradient
     let t148 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t135);
-    let t149 = t82 * neg_mul_add(t97, t126, t127);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t150 = t137 - mul_add(t12, P::splat(P::lane(t111, 0)), t128);
-    let t151 = t138 - mul_sub(t38, P::splat(P::lane(t99, 0)), t129);
-    let t152 = t139 + t140;
-    let t153 = neg_mul_add(t13, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
-    let t154 = neg_mul_add(t44, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t155 = t18 * P::splat(P::lane(t100, 0));
-    let t156 = t43 * P::splat(P::lane(t107, 0));
-    let t157 = neg_mul_add(t20, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
-    let t158 = mul_add(t49, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t159 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t145);
-    let t160 = mul_add(t46, P::splat(P::lane(t60, 0)), t132);
     // constant and copied elements
-    let t161 =
+    let t149 =
         P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
     // legs 1, 2, 3: inertial rate of that gradient
-    let t162 = t82 * neg_mul_add(t105, t126, t133);
+    let t150 = t82 * neg_mul_add(t97, t126, t127);
     // legs 1, 2, 3: actuator acceleration d''
-    let t163 = t150 + t151;
+    let t151 = t137 - mul_add(t12, P::splat(P::lane(t111, 0)), t128);
+    let t152 = t138 - mul_sub(t38, P::splat(P::lane(t99, 0)), t129);
+    let t153 = t139 + t140;
+    let t154 = neg_mul_add(t13, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
+    let t155 = neg_mul_add(t44, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
     // legs 4, 5, 6: actuator acceleration d''
-    let t164 = neg_mul_add(t20, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
-    let t165 = mul_add(t49, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
-    // legs 1, 2, 3: actuator acceleration d''
-    let t166 = t153 - mul_add(t12, P::splat(P::lane(t111, 2)), t141);
-    let t167 = mul_add(t38, P::splat(P::lane(t107, 2)), t142) + t154;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t168 = t157 - mul_add(t19, P::splat(P::lane(t111, 1)), t143);
-    let t169 = mul_sub(t48, P::splat(P::lane(t113, 1)), t144) + t158;
-    let t170 = t18 * P::splat(P::lane(t100, 2));
-    let t171 = t43 * P::splat(P::lane(t113, 2));
+    let t156 = t18 * P::splat(P::lane(t100, 0));
+    let t157 = t43 * P::splat(P::lane(t107, 0));
+    let t158 = neg_mul_add(t20, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
+    let t159 = mul_add(t49, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t160 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t145);
+    let t161 = mul_add(t46, P::splat(P::lane(t60, 0)), t132);
     // constant and copied elements
-    let t172 =
+    let t162 =
         P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t173 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t160);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t163 = t82 * neg_mul_add(t105, t126, t133);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t164 = t151 + t152;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t165 = neg_mul_add(t20, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
+    let t166 = mul_add(t49, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
     // second moment of payload and platform-side leg ends
-    let t174 = mul_add(t12 * t12, t172, t19 * t19 * t161);
-    let t175 = mul_add(t9 * t12, t172, t18 * t19 * t161);
-    let t176 = mul_add(t12 * t13, t172, t19 * t20 * t161);
+    let t167 = mul_add(t12 * t12, t162, t19 * t19 * t149);
+    let t168 = mul_add(t9 * t12, t162, t18 * t19 * t149);
+    let t169 = mul_add(t12 * t13, t162, t19 * t20 * t149);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t170 = t154 - mul_add(t12, P::splat(P::lane(t111, 2)), t141);
+    let t171 = mul_add(t38, P::splat(P::lane(t107, 2)), t142) + t155;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t172 = t158 - mul_add(t19, P::splat(P::lane(t111, 1)), t143);
+    let t173 = mul_sub(t48, P::splat(P::lane(t113, 1)), t144) + t159;
+    let t174 = t18 * P::splat(P::lane(t100, 2));
+    let t175 = t43 * P::splat(P::lane(t113, 2));
     // legs 4, 5, 6: inertial rate of that gradient
+    let t176 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t161);
     let t177 = t84 * neg_mul_add(t118, t146, t147);
     // legs 1, 2, 3: inertial rate of that gradient
     let t178 = t82 * neg_mul_add(t119, t126, t148);
     // legs 1, 2, 3: actuator acceleration d''
-    let t179 = t166 + t167;
+    let t179 = t170 + t171;
     // legs 4, 5, 6: actuator acceleration d''
-    let t180 = t164 - mul_add(t19, P::splat(P::lane(t111, 0)), t155);
-    let t181 = t165 - mul_sub(t48, P::splat(P::lane(t99, 0)), t156);
-    let t182 = t168 + t169;
+    let t180 = t165 - mul_add(t19, P::splat(P::lane(t111, 0)), t156);
+    let t181 = t166 - mul_sub(t48, P::splat(P::lane(t99, 0)), t157);
+    let t182 = t172 + t173;
     let t183 = neg_mul_add(t20, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
     let t184 = neg_mul_add(t49, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
     // constant and copied elements
@@ -28897,725 +28899,724 @@ pub fn control_in_lanes<P: Triple>(
     let t186 =
         P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t187 = t84 * neg_mul_add(t125, t146, t159);
+    let t187 = t84 * neg_mul_add(t125, t146, t160);
     // legs 1, 2, 3: actuator acceleration d''
-    let t188 = mul_add(t119, t179, mul_add(t105, t163, t97 * t152));
-    let t189 = mul_add(t178, t178, mul_add(t162, t162, t149 * t149));
+    let t188 = mul_add(t119, t179, mul_add(t105, t164, t97 * t153));
+    let t189 = mul_add(t178, t178, mul_add(t163, t163, t150 * t150));
     // legs 4, 5, 6: actuator acceleration d''
     let t190 = t180 + t181;
     // legs 1, 2, 3: first moment of the lower part about the base joint
     let t191 = t185 * t186;
     // legs 4, 5, 6: actuator acceleration d''
-    let t192 = t183 - mul_add(t19, P::splat(P::lane(t111, 2)), t170);
-    let t193 = mul_add(t48, P::splat(P::lane(t107, 2)), t171) + t184;
+    let t192 = t183 - mul_add(t19, P::splat(P::lane(t111, 2)), t174);
+    let t193 = mul_add(t48, P::splat(P::lane(t107, 2)), t175) + t184;
+    // second moment of payload and platform-side leg ends
+    let t194 = mul_add(t162, t9 * t9, t149 * (t18 * t18));
+    let t195 = mul_add(t162, t9 * t13, t149 * (t18 * t20));
+    let t196 = P::triple([P::lane(t167, 0), P::lane(t168, 0), P::lane(t169, 0)]);
+    let t197 = P::triple([P::lane(t167, 1), P::lane(t168, 1), P::lane(t169, 1)]);
     // constant and copied elements
-    let t194 =
+    let t198 =
         P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t195 = t84 * neg_mul_add(t136, t146, t173);
+    let t199 = t84 * neg_mul_add(t136, t146, t176);
     // legs 1, 2, 3: actuator acceleration d''
-    let t196 = neg_mul_add(t59, t189, t188);
+    let t200 = neg_mul_add(t59, t189, t188);
     // legs 4, 5, 6: actuator acceleration d''
-    let t197 = t192 + t193;
+    let t201 = t192 + t193;
     // second moment of payload and platform-side leg ends
-    let t198 = mul_add(t172, t9 * t9, t161 * (t18 * t18));
-    let t199 = mul_add(t172, t9 * t13, t161 * (t18 * t20));
-    let t200 = P::triple([P::lane(t174, 0), P::lane(t175, 0), P::lane(t176, 0)]);
-    let t201 = P::triple([P::lane(t174, 1), P::lane(t175, 1), P::lane(t176, 1)]);
+    let t202 = P::triple([P::lane(t167, 2), P::lane(t168, 2), P::lane(t169, 2)]);
+    let t203 = t196 + t197 + t202;
     // constant and copied elements
-    let t202 =
-        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
-    let t203 =
-        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
     let t204 =
-        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
     let t205 =
+        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+    let t206 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+    let t207 =
         P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
     // legs 4, 5, 6: actuator acceleration d''
-    let t206 = mul_add(t136, t197, mul_add(t125, t190, t118 * t182));
-    let t207 = mul_add(t195, t195, mul_add(t187, t187, t177 * t177));
+    let t208 = mul_add(t136, t201, mul_add(t125, t190, t118 * t182));
+    let t209 = mul_add(t199, t199, mul_add(t187, t187, t177 * t177));
     // legs 4, 5, 6: first moment of the lower part about the base joint
-    let t208 = t202 * t203;
+    let t210 = t204 * t205;
     // legs 1, 2, 3: first moment of the upper part about the platform joint
-    let t209 = t172 * t204;
-    // second moment of payload and platform-side leg ends
-    let t210 = P::triple([P::lane(t174, 2), P::lane(t175, 2), P::lane(t176, 2)]);
-    let t211 = t200 + t201 + t210;
+    let t211 = t162 * t206;
     // legs 1, 2, 3: leg inertia less weight along the actuator
     let t212 = t126 * w(2.0);
     // constant and copied elements
     let t213 =
         P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+    // second moment of payload and platform-side leg ends
+    let t214 = mul_add(t162, t13 * t13, t149 * (t20 * t20));
+    let t215 = P::lane(t195, 1) + P::lane(t195, 0);
     // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
-    let t214 = mul_add(t204, t209, mul_add(t186, t191, t194) + t205);
+    let t216 = mul_add(t206, t211, mul_add(t186, t191, t198) + t207);
     // legs 4, 5, 6: actuator acceleration d''
-    let t215 = neg_mul_add(t64, t207, t206);
+    let t217 = neg_mul_add(t64, t209, t208);
     // legs 1, 2, 3: gradient of the actuator length
-    let t216 = P::splat(base_rotation[0][1]) * t97;
-    let t217 = P::splat(base_rotation[2][1]) * t97;
+    let t218 = P::splat(base_rotation[0][1]) * t97;
+    let t219 = P::splat(base_rotation[2][1]) * t97;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t218 = t82 * t82;
-    let t219 = t82 * t209;
+    let t220 = t82 * t82;
+    let t221 = t82 * t211;
     // legs 1, 2, 3: gradient of the actuator length
-    let t220 = P::splat(base_rotation[1][1]) * t97;
+    let t222 = P::splat(base_rotation[1][1]) * t97;
     // second moment of payload and platform-side leg ends
-    let t221 = mul_add(t172, t13 * t13, t161 * (t20 * t20));
-    let t222 = P::lane(t199, 1) + P::lane(t199, 0);
+    let t223 = P::triple([P::lane(t203, 1), P::lane(t194, 2), P::lane(t195, 2)]);
+    let t224 = P::triple([c(0.0), P::lane(t194, 1) + P::lane(t194, 0), t215]);
     // constant and copied elements
-    let t223 =
+    let t225 =
         P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
-    let t224 =
+    let t226 =
         P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
+    // second moment of payload and platform-side leg ends
+    let t227 = t223 + t224;
     // legs 1, 2, 3: gradient of the actuator length
-    let t225 = mul_add(P::splat(base_rotation[0][0]), t105, t216);
-    let t226 = mul_add(P::splat(base_rotation[2][0]), t105, t217);
+    let t228 = mul_add(P::splat(base_rotation[0][0]), t105, t218);
+    let t229 = mul_add(P::splat(base_rotation[2][0]), t105, t219);
     // legs 4, 5, 6: first moment of the upper part about the platform joint
-    let t227 = t161 * t223;
+    let t230 = t149 * t225;
     // legs 1, 2, 3: gradient of the actuator length
-    let t228 = mul_add(P::splat(base_rotation[1][0]), t105, t220);
-    // second moment of payload and platform-side leg ends
-    let t229 = P::triple([P::lane(t211, 1), P::lane(t198, 2), P::lane(t199, 2)]);
-    let t230 = P::triple([c(0.0), P::lane(t198, 1) + P::lane(t198, 0), t222]);
+    let t231 = mul_add(P::splat(base_rotation[1][0]), t105, t222);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t231 = t214 * t218;
+    let t232 = t216 * t220;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t232 = t82 * mul_add(t162, t212, neg_mul_add(t105, t196, t163));
-    let t233 = t82 * mul_add(t149, t212, neg_mul_add(t97, t196, t152));
-    let t234 = t82 * mul_add(t178, t212, neg_mul_add(t119, t196, t179));
+    let t233 = t82 * mul_add(t163, t212, neg_mul_add(t105, t200, t164));
+    let t234 = t82 * mul_add(t150, t212, neg_mul_add(t97, t200, t153));
+    let t235 = t82 * mul_add(t178, t212, neg_mul_add(t119, t200, t179));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t235 = t146 * w(2.0);
-    // second moment of payload and platform-side leg ends
-    let t236 = t229 + t230;
+    let t236 = t146 * w(2.0);
     // legs 1, 2, 3: platform joint from the platform origin
     let t237 = P::splat(platform_rotation[2][1]) * t9;
     // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
-    let t238 = mul_add(t223, t227, mul_add(t203, t208, t213) + t224);
+    let t238 = mul_add(t225, t230, mul_add(t205, t210, t213) + t226);
     // legs 1, 2, 3: platform joint from the platform origin
     let t239 = P::splat(platform_rotation[0][1]) * t9;
     let t240 = P::splat(platform_rotation[1][1]) * t9;
     // legs 1, 2, 3: gradient of the actuator length
-    let t241 = mul_add(P::splat(base_rotation[0][2]), t119, t225);
+    let t241 = mul_add(P::splat(base_rotation[0][2]), t119, t228);
     // legs 4, 5, 6: gradient of the actuator length
     let t242 = P::splat(base_rotation[1][1]) * t118;
     // legs 1, 2, 3: gradient of the actuator length
-    let t243 = mul_add(P::splat(base_rotation[2][2]), t119, t226);
+    let t243 = mul_add(P::splat(base_rotation[2][2]), t119, t229);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t244 = neg_mul_add(w(2.0), mul_sub(t214, t218, t219), t231);
+    let t244 = neg_mul_add(w(2.0), mul_sub(t216, t220, t221), t232);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
     let t245 = t84 * t84;
-    let t246 = t84 * t227;
+    let t246 = t84 * t230;
     // legs 1, 2, 3: leg inertia between joint and base speeds
     let t247 = t82 * t191;
     // legs 1, 2, 3: gradient of the actuator length
-    let t248 = mul_add(P::splat(base_rotation[1][2]), t119, t228);
+    let t248 = mul_add(P::splat(base_rotation[1][2]), t119, t231);
     // legs 1, 2, 3: platform joint from the platform origin
     let t249 = mul_add(P::splat(platform_rotation[2][0]), t12, t237);
-    let t250 = mul_add(P::splat(platform_rotation[0][0]), t12, t239);
-    let t251 = mul_add(P::splat(platform_rotation[1][0]), t12, t240);
+    // second moment of payload and platform-side leg ends
+    let t250 = P::triple([P::lane(t203, 2), P::lane(t227, 2), P::lane(t214, 2)]);
+    let t251 = P::triple([c(0.0), c(0.0), P::lane(t214, 1) + P::lane(t214, 0)]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t252 = mul_add(P::splat(platform_rotation[0][0]), t12, t239);
+    let t253 = mul_add(P::splat(platform_rotation[1][0]), t12, t240);
     // legs 4, 5, 6: gradient of the actuator length
-    let t252 = P::splat(base_rotation[0][1]) * t118;
-    let t253 = mul_add(P::splat(base_rotation[1][0]), t125, t242);
-    let t254 = P::splat(base_rotation[2][1]) * t118;
+    let t254 = P::splat(base_rotation[0][1]) * t118;
+    let t255 = mul_add(P::splat(base_rotation[1][0]), t125, t242);
+    let t256 = P::splat(base_rotation[2][1]) * t118;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t255 = neg_mul_add(w(2.0), t219, t231);
-    let t256 = t241 * t244;
+    let t257 = neg_mul_add(w(2.0), t221, t232);
+    let t258 = t241 * t244;
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t257 = t238 * t245;
+    let t259 = t238 * t245;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t258 = t84 * mul_add(t187, t235, neg_mul_add(t125, t215, t190));
-    let t259 = t84 * mul_add(t177, t235, neg_mul_add(t118, t215, t182));
-    let t260 = t84 * mul_add(t195, t235, neg_mul_add(t136, t215, t197));
+    let t260 = t84 * mul_add(t187, t236, neg_mul_add(t125, t217, t190));
+    let t261 = t84 * mul_add(t177, t236, neg_mul_add(t118, t217, t182));
+    let t262 = t84 * mul_add(t199, t236, neg_mul_add(t136, t217, t201));
     // second moment of payload and platform-side leg ends
-    let t261 = P::triple([P::lane(t211, 2), P::lane(t236, 2), P::lane(t221, 2)]);
-    let t262 = P::triple([c(0.0), c(0.0), P::lane(t221, 1) + P::lane(t221, 0)]);
+    let t263 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t263 = t244 * t248;
+    let t264 = t244 * t248;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t264 = P::splat(platform_rotation[0][1]) * t18;
+    let t265 = P::splat(platform_rotation[0][1]) * t18;
     // legs 1, 2, 3: platform joint from the platform origin
-    let t265 = mul_add(P::splat(platform_rotation[2][2]), t13, t249);
+    let t266 = mul_add(P::splat(platform_rotation[2][2]), t13, t249);
     // legs 4, 5, 6: gradient of the actuator length
-    let t266 = mul_add(P::splat(base_rotation[0][0]), t125, t252);
-    let t267 = mul_add(P::splat(base_rotation[2][0]), t125, t254);
+    let t267 = mul_add(P::splat(base_rotation[0][0]), t125, t254);
+    let t268 = mul_add(P::splat(base_rotation[2][0]), t125, t256);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t268 = mul_add(P::splat(platform_rotation[0][2]), t13, t250);
-    let t269 = mul_add(P::splat(platform_rotation[1][2]), t13, t251);
+    let t269 = mul_add(P::splat(platform_rotation[0][2]), t13, t252);
+    let t270 = mul_add(P::splat(platform_rotation[1][2]), t13, t253);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t270 = P::splat(platform_rotation[1][1]) * t18;
+    let t271 = P::splat(platform_rotation[1][1]) * t18;
     // legs 4, 5, 6: gradient of the actuator length
-    let t271 = mul_add(P::splat(base_rotation[1][2]), t136, t253);
+    let t272 = mul_add(P::splat(base_rotation[1][2]), t136, t255);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t272 = neg_mul_add(w(2.0), mul_sub(t238, t245, t246), t257);
+    let t273 = neg_mul_add(w(2.0), mul_sub(t238, t245, t246), t259);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t273 = t243 * t256;
-    let t274 = mul_add(t243, t243 * t244, t255);
+    let t274 = t243 * t258;
+    let t275 = mul_add(t243, t243 * t244, t257);
     // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t275 = t84 * t208;
+    let t276 = t84 * t210;
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t276 = mul_add(t150, t219, mul_add(t151, t247, t209 * t232));
-    let t277 = mul_add(t139, t219, mul_add(t140, t247, t209 * t233));
-    let t278 = mul_add(t166, t219, mul_add(t167, t247, t209 * t234));
+    let t277 = mul_add(t151, t221, mul_add(t152, t247, t211 * t233));
+    let t278 = mul_add(t139, t221, mul_add(t140, t247, t211 * t234));
+    let t279 = mul_add(t170, t221, mul_add(t171, t247, t211 * t235));
     // second moment of payload and platform-side leg ends
-    let t279 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t280 = t243 * t263;
-    // legs 1, 2, 3: leg inertia between joint and base speeds
-    let t281 = t82 * t214;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t282 = mul_add(P::splat(platform_rotation[0][0]), t19, t264);
-    let t283 = P::splat(platform_rotation[2][1]) * t18;
-    let t284 = mul_add(P::splat(platform_rotation[1][0]), t19, t270);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t285 = mul_add(P::splat(base_rotation[0][2]), t136, t266);
-    let t286 = mul_add(P::splat(base_rotation[2][2]), t136, t267);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t287 = neg_mul_add(w(2.0), t246, t257);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t288 = mul_add(t248, t263, t255);
-    // second moment of payload and platform-side leg ends
-    let t289 = t279 + parameters.payload_inertia[2][2];
+    let t280 = t263 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t290 =
+    let t281 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t291 =
+    let t282 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t292 = t271 * t272;
-    // mass matrix of the legs
-    let t293 = t268 * t280;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t294 = neg_mul_add(t232, t281, t276);
-    let t295 = neg_mul_add(t233, t281, t277);
-    let t296 = neg_mul_add(t234, t281, t278);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t297 = mul_add(P::splat(platform_rotation[2][0]), t19, t283);
-    let t298 = mul_add(P::splat(platform_rotation[0][2]), t20, t282);
-    // second moment of payload and platform-side leg ends
-    let t299 = P::triple([P::lane(t211, 0), P::lane(t236, 1), P::lane(t261 + t262, 2)]);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t300 = t248 * t256;
-    // mass matrix of the legs
-    let t301 = mul_sub(t268, t274, t265 * t273);
+    let t283 = t243 * t264;
+    // legs 1, 2, 3: leg inertia between joint and base speeds
+    let t284 = t82 * t216;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t302 = mul_add(P::splat(platform_rotation[1][2]), t20, t284);
+    let t285 = mul_add(P::splat(platform_rotation[0][0]), t19, t265);
+    let t286 = P::splat(platform_rotation[2][1]) * t18;
+    let t287 = mul_add(P::splat(platform_rotation[1][0]), t19, t271);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t288 = mul_add(P::splat(base_rotation[0][2]), t136, t267);
+    let t289 = mul_add(P::splat(base_rotation[2][2]), t136, t268);
+    // second moment of payload and platform-side leg ends
+    let t290 = P::triple([P::lane(t203, 0), P::lane(t227, 1), P::lane(t250 + t251, 2)]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t291 = neg_mul_add(w(2.0), t246, t259);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t292 = mul_add(t248, t264, t257);
     // first moment of payload and platform-side leg ends
-    let t303 = mul_add(t12, t172, t19 * t161);
-    let t304 = mul_add(t9, t172, t18 * t161);
-    let t305 = mul_add(t13, t172, t20 * t161);
+    let t293 = mul_add(t12, t162, t19 * t149);
+    let t294 = mul_add(t9, t162, t18 * t149);
+    let t295 = mul_add(t13, t162, t20 * t149);
     // second moment of payload and platform-side leg ends
-    let t306 = P::triple([P::lane(t211, 1), P::lane(t236, 2), P::lane(t211, 2)]);
+    let t296 = P::triple([P::lane(t203, 1), P::lane(t227, 2), P::lane(t203, 2)]);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t307 = t272 * t285;
-    let t308 = mul_add(t271, t292, t287);
-    let t309 = t286 * t292;
+    let t297 = t272 * t273;
     // mass matrix of the legs
-    let t310 = mul_sub(t269, t273, t293);
-    let t311 = mul_sub(t265, t280, t269 * t274);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t312 = mul_add(t180, t246, mul_add(t181, t275, t227 * t258));
-    let t313 = mul_add(t168, t246, mul_add(t169, t275, t227 * t259));
-    let t314 = mul_add(t192, t246, mul_add(t193, t275, t227 * t260));
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t315 = mul_add(t241, t256, t255);
-    // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t316 = t84 * t238;
+    let t298 = t269 * t283;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t299 = neg_mul_add(t233, t284, t277);
+    let t300 = neg_mul_add(t234, t284, t278);
+    let t301 = neg_mul_add(t235, t284, t279);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t317 = mul_add(P::splat(platform_rotation[2][2]), t20, t297);
+    let t302 = mul_add(P::splat(platform_rotation[2][0]), t19, t286);
+    let t303 = mul_add(P::splat(platform_rotation[0][2]), t20, t285);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t304 = t248 * t258;
     // mass matrix of the legs
-    let t318 = mul_sub(t265, t300, t293);
+    let t305 = mul_sub(t269, t275, t266 * t274);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t306 = mul_add(P::splat(platform_rotation[1][2]), t20, t287);
     // constant and copied elements
-    let t319 =
+    let t307 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t320 =
+    let t308 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t321 = t271 * t307;
+    let t309 = t273 * t288;
+    let t310 = mul_add(t272, t297, t291);
+    let t311 = t289 * t297;
     // mass matrix of the legs
-    let t322 = t298 * t309;
-    let t323 = mul_sub(t265, t288, t269 * t280);
-    let t324 = mul_sub(t269, t300, t268 * t288);
-    // second moment of payload and platform-side leg ends
-    let t325 = mul_add(P::splat(t289), w(0.5), t299) - t320;
-    // constant and copied elements
-    let t326 =
-        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t327 = t286 * t307;
-    let t328 = mul_add(t286, t272 * t286, t287);
+    let t312 = mul_sub(t270, t274, t298);
+    let t313 = mul_sub(t266, t283, t270 * t275);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t329 = neg_mul_add(t258, t316, t312);
-    let t330 = neg_mul_add(t259, t316, t313);
-    let t331 = neg_mul_add(t260, t316, t314);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t332 = mul_sub(t33, t296, t37 * t295);
-    let t333 = mul_sub(t37, t294, t32 * t296);
-    let t334 = mul_sub(t32, t295, t33 * t294);
+    let t314 = mul_add(t180, t246, mul_add(t181, t276, t230 * t260));
+    let t315 = mul_add(t172, t246, mul_add(t173, t276, t230 * t261));
+    let t316 = mul_add(t192, t246, mul_add(t193, t276, t230 * t262));
     // second moment of payload and platform-side leg ends
-    let t335 = mul_add(t290 * t291, P::splat(parameters.payload_mass), t306) - t326;
-    // mass matrix of the legs
-    let t336 = mul_sub(t317, t321, t322);
+    let t317 = mul_add(P::splat(t280), w(0.5), t290) - t308;
+    // constant and copied elements
+    let t318 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t319 = mul_add(t241, t258, t257);
+    // legs 4, 5, 6: leg inertia between joint and base speeds
+    let t320 = t84 * t238;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t321 = mul_add(P::splat(platform_rotation[2][2]), t20, t302);
     // second moment of payload and platform-side leg ends
-    let t337 = mul_add(P::splat(parameters.payload_mass), t319 * t319, t325);
+    let t322 = mul_add(t281 * t282, P::splat(parameters.payload_mass), t296) - t318;
     // mass matrix of the legs
-    let t338 = mul_sub(t308, t317, t302 * t309);
-    let t339 = mul_sub(t302, t321, t298 * t308);
-    // first moment of payload and platform-side leg ends
-    let t340 = P::triple([P::lane(t303, 0), P::lane(t304, 0), P::lane(t305, 0)]);
-    let t341 = P::triple([P::lane(t303, 1), P::lane(t304, 1), P::lane(t305, 1)]);
-    // mass matrix of the legs
-    let t342 = mul_sub(t268, t273, t265 * t315);
-    let t343 = mul_sub(t269, t315, t268 * t300);
-    let t344 = mul_add(t317, t336, mul_add(t265, t318, t269 * t301));
-    let t345 = mul_sub(t298, t328, t317 * t327);
-    // first moments by platform coordinate of the payload's inertia force
-    let t346 = t100 * P::splat(P::lane(t335, 0));
-    // first moment of payload and platform-side leg ends
-    let t347 = P::triple([P::lane(t303, 2), P::lane(t304, 2), P::lane(t305, 2)]);
-    // mass matrix of the legs
-    let t348 = mul_sub(t302, t327, t322);
-    let t349 = mul_add(t317, t338, mul_sub(t265, t323, t269 * t311));
-    let t350 = mul_sub(t309, t317, t302 * t328);
-    let t351 = mul_add(t317, t339, mul_sub(t265, t324, t269 * t310));
+    let t323 = mul_sub(t266, t304, t298);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t352 = mul_add(t285, t307, t287);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t353 = neg_mul_add(t45, t330, mul_add(t36, t331, t332));
-    let t354 = neg_mul_add(t39, t331, mul_add(t45, t329, t333));
-    let t355 = neg_mul_add(t36, t329, mul_add(t39, t330, t334));
-    // first moments by platform coordinate of the payload's inertia force
-    let t356 = mul_add(t111, P::splat(P::lane(t337, 0)), t346);
+    let t324 = t272 * t309;
     // mass matrix of the legs
-    let t357 = mul_add(t302, t345, t344);
+    let t325 = t303 * t311;
+    let t326 = mul_sub(t266, t292, t270 * t283);
+    let t327 = mul_sub(t270, t304, t269 * t292);
+    // second moment of payload and platform-side leg ends
+    let t328 = mul_add(P::splat(parameters.payload_mass), t307 * t307, t317);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t329 = t289 * t309;
+    let t330 = mul_add(t289, t273 * t289, t291);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t331 = neg_mul_add(t260, t320, t314);
+    let t332 = neg_mul_add(t261, t320, t315);
+    let t333 = neg_mul_add(t262, t320, t316);
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t334 = mul_sub(t33, t301, t37 * t300);
+    let t335 = mul_sub(t37, t299, t32 * t301);
+    let t336 = mul_sub(t32, t300, t33 * t299);
     // first moment of payload and platform-side leg ends
-    let t358 = mul_add(P::splat(parameters.payload_mass), t319, t340 + t341 + t347);
+    let t337 = P::triple([P::lane(t293, 0), P::lane(t294, 0), P::lane(t295, 0)]);
+    let t338 = P::triple([P::lane(t293, 1), P::lane(t294, 1), P::lane(t295, 1)]);
     // mass matrix of the legs
-    let t359 = neg_mul_add(t302, t350, t349);
-    let t360 = neg_mul_add(t302, t348, t351);
-    // constant and copied elements
-    let t361 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t362 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // mass matrix of the legs
-    let t363 = mul_add(t248, t256, t321);
-    let t364 = mul_add(t243, t256, t327);
+    let t339 = mul_sub(t321, t324, t325);
+    let t340 = mul_sub(t310, t321, t306 * t311);
+    let t341 = mul_sub(t306, t324, t303 * t310);
     // first moments by platform coordinate of the payload's inertia force
-    let t365 = mul_add(t112, P::splat(P::lane(t335, 2)), t356);
+    let t342 = t100 * P::splat(P::lane(t322, 0));
+    // first moment of payload and platform-side leg ends
+    let t343 = P::triple([P::lane(t293, 2), P::lane(t294, 2), P::lane(t295, 2)]);
     // mass matrix of the legs
-    let t366 = t315 + t352;
+    let t344 = mul_sub(t269, t274, t266 * t319);
+    let t345 = mul_sub(t270, t319, t269 * t304);
+    let t346 = mul_add(t321, t339, mul_add(t266, t323, t270 * t305));
+    let t347 = mul_sub(t303, t330, t321 * t329);
+    // first moments by platform coordinate of the payload's inertia force
+    let t348 = mul_add(t111, P::splat(P::lane(t328, 0)), t342);
+    // mass matrix of the legs
+    let t349 = mul_sub(t306, t329, t325);
+    let t350 = mul_add(t321, t340, mul_sub(t266, t326, t270 * t313));
+    let t351 = mul_sub(t311, t321, t306 * t330);
+    let t352 = mul_add(t321, t341, mul_sub(t266, t327, t270 * t312));
+    // first moment of payload and platform-side leg ends
+    let t353 = mul_add(P::splat(parameters.payload_mass), t307, t337 + t338 + t343);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t354 = mul_add(t288, t309, t291);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t355 = neg_mul_add(t45, t332, mul_add(t36, t333, t334));
+    let t356 = neg_mul_add(t39, t333, mul_add(t45, t331, t335));
+    let t357 = neg_mul_add(t36, t331, mul_add(t39, t332, t336));
+    // mass matrix of the legs
+    let t358 = mul_add(t306, t347, t346);
+    // first moments by platform coordinate of the payload's inertia force
+    let t359 = mul_add(t112, P::splat(P::lane(t322, 2)), t348);
+    // mass matrix of the legs
+    let t360 = neg_mul_add(t306, t351, t350);
+    let t361 = neg_mul_add(t306, t349, t352);
     // constant and copied elements
-    let t367 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    let t362 =
+        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
+    let t363 =
+        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t364 = t100 * P::splat(P::lane(t328, 1));
+    // mass matrix of the legs
+    let t365 = mul_add(t248, t258, t324);
+    let t366 = mul_add(t243, t258, t329);
+    let t367 = t319 + t354;
+    // constant and copied elements
     let t368 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
     let t369 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t370 =
         P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t370 = t100 * P::splat(P::lane(t337, 1));
+    let t371 = mul_sub(t110, P::splat(P::lane(t353, 0)), t359);
+    let t372 = mul_add(t111, P::splat(P::lane(t322, 0)), t364);
     // mass matrix of the legs
-    let t371 = mul_add(t298, t345, mul_sub(t268, t301, t265 * t342));
-    let t372 = mul_sub(t298, t327, t317 * t352);
-    let t373 = mul_add(t298, t348, mul_sub(t268, t310, t265 * t343));
-    let t374 = mul_sub(t302, t352, t298 * t321);
+    let t373 = mul_add(t303, t347, mul_sub(t269, t305, t266 * t344));
+    let t374 = mul_sub(t303, t329, t321 * t354);
+    let t375 = mul_add(t303, t349, mul_sub(t269, t312, t266 * t345));
+    let t376 = mul_sub(t306, t354, t303 * t324);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t375 = mul_add(t136, t192, mul_add(t125, t180, t118 * t168));
+    let t377 = mul_add(t136, t192, mul_add(t125, t180, t118 * t172));
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t376 = mul_add(t64 - t361, t369, t146 * t362);
+    let t378 = mul_add(t64 - t362, t370, t146 * t363);
     // mass of payload and platform-side leg ends
-    let t377 = t161 + t172;
+    let t379 = t149 + t162;
     // moment of the legs' inertia at their joints about the platform origin
-    let t378 = P::triple([P::lane(t353, 0), P::lane(t354, 0), P::lane(t355, 0)]);
-    let t379 = P::triple([P::lane(t353, 1), P::lane(t354, 1), P::lane(t355, 1)]);
+    let t380 = P::triple([P::lane(t355, 0), P::lane(t356, 0), P::lane(t357, 0)]);
+    let t381 = P::triple([P::lane(t355, 1), P::lane(t356, 1), P::lane(t357, 1)]);
     // constant and copied elements
-    let t380 =
+    let t382 =
         P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t381 = mul_sub(t110, P::splat(P::lane(t358, 0)), t365);
-    let t382 = mul_add(t111, P::splat(P::lane(t335, 0)), t370);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t383 = mul_add(t119, t166, mul_add(t105, t150, t97 * t139));
+    let t383 = mul_add(t119, t170, mul_add(t105, t151, t97 * t139));
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t384 = mul_add(t59 - t367, t380, t126 * t368);
+    let t384 = mul_add(t59 - t368, t382, t126 * t369);
     // inertia force less weight, without the actuators' own shares
-    let t385 = t294 + t329;
-    let t386 = t295 + t330;
-    let t387 = t296 + t331;
-    // mass matrix of the legs
-    let t388 = neg_mul_add(t317, t372, t371);
-    let t389 = neg_mul_add(t317, t374, t373);
-    let t390 = P::triple([P::lane(t359, 0), -P::lane(t357, 0), P::lane(t360, 0)]);
-    let t391 = P::triple([P::lane(t359, 1), -P::lane(t357, 1), P::lane(t360, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t392 = mul_add(t136, t193, mul_add(t125, t181, t118 * t169));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t393 = P::triple([P::lane(t353, 2), P::lane(t354, 2), P::lane(t355, 2)]);
-    let t394 = t378 + t379 + t393;
-    // mass matrix of the legs
-    let t395 = mul_add(t243, t263, t309);
-    let t396 = P::triple([P::lane(t366, 0), P::lane(t363, 0), P::lane(t364, 0)]);
-    let t397 = P::triple([P::lane(t366, 1), P::lane(t363, 1), P::lane(t364, 1)]);
-    // mass matrix M_p of the platform
-    let t398 = t323 + t338;
+    let t385 = t299 + t331;
+    let t386 = t300 + t332;
+    let t387 = t301 + t333;
     // first moments by platform coordinate of the payload's inertia force
-    let t399 = mul_add(t112, P::splat(P::lane(t335, 1)), t382);
+    let t388 = mul_add(t112, P::splat(P::lane(t322, 1)), t372);
+    // mass matrix of the legs
+    let t389 = neg_mul_add(t321, t374, t373);
+    let t390 = neg_mul_add(t321, t376, t375);
+    let t391 = P::triple([P::lane(t360, 0), -P::lane(t358, 0), P::lane(t361, 0)]);
+    let t392 = P::triple([P::lane(t360, 1), -P::lane(t358, 1), P::lane(t361, 1)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t393 = mul_add(t136, t193, mul_add(t125, t181, t118 * t173));
+    // first moments by platform coordinate of the payload's inertia force
+    let t394 = t100 * P::splat(P::lane(t322, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t395 = P::triple([P::lane(t355, 2), P::lane(t356, 2), P::lane(t357, 2)]);
+    let t396 = t380 + t381 + t395;
+    // mass matrix of the legs
+    let t397 = mul_add(t243, t264, t311);
+    let t398 = P::triple([P::lane(t367, 0), P::lane(t365, 0), P::lane(t366, 0)]);
+    let t399 = P::triple([P::lane(t367, 1), P::lane(t365, 1), P::lane(t366, 1)]);
+    // mass matrix M_p of the platform
+    let t400 = t326 + t340;
     // constant and copied elements
-    let t400 =
+    let t401 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t401 = mul_add(t317, t321, mul_sub(t265, t300, t269 * t273));
-    let t402 = t288 + t308;
-    let t403 = P::triple([P::lane(t359, 2), -P::lane(t357, 2), P::lane(t360, 2)]);
+    let t402 = mul_add(t321, t324, mul_sub(t266, t304, t270 * t274));
+    let t403 = t292 + t310;
+    let t404 = P::triple([P::lane(t360, 2), -P::lane(t358, 2), P::lane(t361, 2)]);
     // mass matrix M_p of the platform
-    let t404 = t324 + t339;
+    let t405 = t327 + t341;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t405 = mul_add(t119, t167, mul_add(t105, t151, t97 * t140));
+    let t406 = mul_add(t119, t171, mul_add(t105, t152, t97 * t140));
     // first moments by platform coordinate of the payload's inertia force
-    let t406 = t100 * P::splat(P::lane(t335, 1));
+    let t407 = mul_sub(t110, P::splat(P::lane(t353, 1)), t388);
+    let t408 = mul_add(t111, P::splat(P::lane(t322, 2)), t394);
+    let t409 = P::triple([P::lane(t371, 2), P::lane(t371, 0), P::lane(t371, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t407 = P::splat(parameters.payload_com[1]) * t400;
+    let t410 = P::splat(parameters.payload_com[1]) * t401;
     // mass matrix of the legs
-    let t408 = mul_add(t302, t374, mul_sub(t269, t343, t268 * t324));
-    let t409 = t390 + t391 + t403;
+    let t411 = mul_add(t306, t376, mul_sub(t270, t345, t269 * t327));
+    let t412 = t391 + t392 + t404;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t410 = mul_add(t136, t260, mul_add(t125, t258, t118 * t259));
+    let t413 = mul_add(t136, t262, mul_add(t125, t260, t118 * t261));
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t411 = mul_add(t275, t392, mul_sub(t246, t375, t376));
+    let t414 = mul_add(t276, t393, mul_sub(t246, t377, t378));
     // mass matrix M_p of the platform
-    let t412 = platform_rotation[2][1] * P::lane(t358, 1);
+    let t415 = platform_rotation[2][1] * P::lane(t353, 1);
     // mass matrix of the legs
-    let t413 = P::triple([P::lane(t366, 2), P::lane(t363, 2), P::lane(t364, 2)]);
+    let t416 = P::triple([P::lane(t367, 2), P::lane(t365, 2), P::lane(t366, 2)]);
     // mass matrix M_p of the platform
-    let t414 = t343 + t374;
-    let t415 = t301 + t345;
-    let t416 = platform_rotation[0][1] * P::lane(t358, 1);
+    let t417 = t345 + t376;
+    let t418 = t305 + t347;
+    let t419 = platform_rotation[0][1] * P::lane(t353, 1);
     // constant and copied elements
-    let t417 =
+    let t420 =
         P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
     // mass matrix of the legs
-    let t418 = t318 + t336;
-    let t419 = t396 + t397 + t413;
+    let t421 = t323 + t339;
+    let t422 = t398 + t399 + t416;
     // mass matrix M_p of the platform
-    let t420 = t342 + t372;
-    let t421 = t311 + t350;
+    let t423 = t344 + t374;
+    let t424 = t313 + t351;
     // inertia force less weight, without the actuators' own shares
-    let t422 = P::triple([P::lane(t385, 0), P::lane(t386, 0), P::lane(t387, 0)]);
-    let t423 = P::triple([P::lane(t385, 1), P::lane(t386, 1), P::lane(t387, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t424 = mul_sub(t110, P::splat(P::lane(t358, 1)), t399);
-    let t425 = mul_add(t111, P::splat(P::lane(t335, 2)), t406);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t426 = P::neg_mul_add(P::lane(t15, 1), P::lane(t381, 2), P::lane(t394, 0));
+    let t425 = P::triple([P::lane(t385, 0), P::lane(t386, 0), P::lane(t387, 0)]);
+    let t426 = P::triple([P::lane(t385, 1), P::lane(t386, 1), P::lane(t387, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t427 = mul_add(P::splat(parameters.payload_com[0]), t417, t407);
+    let t427 = mul_add(P::splat(parameters.payload_com[0]), t420, t410);
     // mass matrix of the legs
-    let t428 = neg_mul_add(t302, t327, t401);
+    let t428 = neg_mul_add(t306, t329, t402);
     // mass of payload and platform-side leg ends
-    let t429 = P::lane(t377, 2) + (P::lane(t377, 1) + P::lane(t377, 0));
+    let t429 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
     // mass matrix M_p of the platform
-    let t430 = platform_rotation[0][1] * P::lane(t335, 0);
+    let t430 = platform_rotation[0][1] * P::lane(t322, 0);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t431 = mul_add(t119, t234, mul_add(t105, t232, t97 * t233));
+    let t431 = mul_add(t119, t235, mul_add(t105, t233, t97 * t234));
+    // first moments by platform coordinate of the payload's inertia force
+    let t432 = mul_add(t112, P::splat(P::lane(t328, 2)), t408);
+    // rotation of the platform seen from the base
+    let t433 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t434 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t432 = mul_add(t247, t405, mul_sub(t219, t383, t384));
+    let t435 = mul_add(t247, t406, mul_sub(t221, t383, t384));
     // mass matrix M_p of the platform
-    let t433 = P::mul_add(platform_rotation[2][0], P::lane(t358, 0), t412);
-    let t434 = platform_rotation[1][1] * P::lane(t358, 1);
+    let t436 = P::mul_add(platform_rotation[2][0], P::lane(t353, 0), t415);
+    let t437 = platform_rotation[1][1] * P::lane(t353, 1);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t435 = mul_sub(t286, t302, t271 * t317);
-    let t436 = mul_sub(t285, t317, t286 * t298);
-    let t437 = mul_sub(t271, t298, t285 * t302);
+    let t438 = mul_sub(t289, t306, t272 * t321);
+    let t439 = mul_sub(t288, t321, t289 * t303);
+    let t440 = mul_sub(t272, t303, t288 * t306);
     // mass matrix of the legs
-    let t438 = t310 + t348;
-    let t439 = neg_mul_add(t298, t339, t408);
-    let t440 = P::lane(t389, 1) + P::lane(t389, 0);
+    let t441 = t312 + t349;
+    let t442 = neg_mul_add(t303, t341, t411);
+    let t443 = P::lane(t390, 1) + P::lane(t390, 0);
+    // moment of the inertia force about the platform origin
+    let t444 = mul_add(t433, t434, neg_mul_add(t66, t409, t396));
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t441 = neg_mul_add(t316, t410, t411);
+    let t445 = neg_mul_add(t320, t413, t414);
     // mass matrix M_p of the platform
-    let t442 = P::mul_add(platform_rotation[0][0], P::lane(t358, 0), t416);
+    let t446 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t419);
     // inertia force less weight, without the actuators' own shares
-    let t443 = P::triple([P::lane(t385, 2), P::lane(t386, 2), P::lane(t387, 2)]);
-    // constant and copied elements
-    let t444 =
-        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
-    // mass matrix of the legs
-    let t445 = P::lane(t395, 1) + P::lane(t395, 0);
-    // mass of payload and platform-side leg ends
-    let t446 = parameters.payload_mass + t429;
-    // mass matrix M_p of the platform
-    let t447 = P::mul_add(platform_rotation[0][0], P::lane(t337, 0), t430);
+    let t447 = P::triple([P::lane(t385, 2), P::lane(t386, 2), P::lane(t387, 2)]);
     // constant and copied elements
     let t448 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t449 = mul_add(t112, P::splat(P::lane(t337, 2)), t425);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t450 = P::neg_mul_add(P::lane(t15, 2), P::lane(t381, 0), P::lane(t394, 1));
-    let t451 = P::mul_add(P::lane(t15, 2), P::lane(t381, 1), t426);
-    // mass matrix M_p of the platform
-    let t452 = P::mul_add(platform_rotation[1][0], P::lane(t358, 0), t434);
-    // inertia less external wrench that the actuators must balance
-    let t453 = mul_add(P::splat(parameters.payload_com[2]), t444, t427);
-    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t454 = mul_sub(t243, t269, t248 * t265);
-    let t455 = mul_sub(t241, t265, t243 * t268);
-    let t456 = mul_sub(t248, t268, t241 * t269);
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // mass matrix of the legs
-    let t457 = t274 + t328;
-    let t458 = P::triple([P::lane(t409, 1), P::lane(t388, 2), P::lane(t389, 2)]);
-    let t459 = P::triple([c(0.0), P::lane(t388, 1) + P::lane(t388, 0), t440]);
+    let t449 = P::lane(t397, 1) + P::lane(t397, 0);
+    // mass of payload and platform-side leg ends
+    let t450 = parameters.payload_mass + t429;
     // mass matrix M_p of the platform
-    let t460 = P::lane(t337, 2) + (P::lane(t337, 0) + P::lane(t337, 1));
-    let t461 = platform_rotation[0][1] * P::lane(t337, 1);
-    let t462 = P::splat(P::lane(t335, 0)) * t448;
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t463 = neg_mul_add(t281, t431, t432);
-    // mass matrix M_p of the platform
-    let t464 = P::mul_add(platform_rotation[2][2], P::lane(t358, 2), t433);
-    // mass matrix of the legs
-    let t465 = t458 + t459;
-    // mass matrix M_p of the platform
-    let t466 = P::mul_add(platform_rotation[0][2], P::lane(t358, 2), t442);
-    // mass matrix of the legs
-    let t467 = P::triple([P::lane(t419, 1), P::lane(t402, 2), P::lane(t395, 2)]);
-    let t468 = P::triple([c(0.0), P::lane(t402, 1) + P::lane(t402, 0), t445]);
+    let t451 = P::mul_add(platform_rotation[0][0], P::lane(t328, 0), t430);
     // constant and copied elements
-    let t469 =
+    let t452 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // mass matrix M_p of the platform
+    let t453 = P::mul_add(platform_rotation[1][0], P::lane(t353, 0), t437);
+    // inertia less external wrench that the actuators must balance
+    let t454 = mul_add(P::splat(parameters.payload_com[2]), t448, t427);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t455 = mul_sub(t243, t270, t248 * t266);
+    let t456 = mul_sub(t241, t266, t243 * t269);
+    let t457 = mul_sub(t248, t269, t241 * t270);
+    // mass matrix of the legs
+    let t458 = t275 + t330;
+    let t459 = P::triple([P::lane(t412, 1), P::lane(t389, 2), P::lane(t390, 2)]);
+    let t460 = P::triple([c(0.0), P::lane(t389, 1) + P::lane(t389, 0), t443]);
+    // mass matrix M_p of the platform
+    let t461 = P::lane(t328, 2) + (P::lane(t328, 0) + P::lane(t328, 1));
+    let t462 = platform_rotation[0][1] * P::lane(t328, 1);
+    let t463 = P::splat(P::lane(t322, 0)) * t452;
+    // first moments by platform coordinate of the payload's inertia force
+    let t464 = mul_sub(t110, P::splat(P::lane(t353, 2)), t432);
+    let t465 = P::triple([P::lane(t407, 2), P::lane(t407, 0), P::lane(t407, 1)]);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t466 = neg_mul_add(t284, t431, t435);
+    // mass matrix M_p of the platform
+    let t467 = P::mul_add(platform_rotation[2][2], P::lane(t353, 2), t436);
+    // mass matrix of the legs
+    let t468 = t459 + t460;
+    // mass matrix M_p of the platform
+    let t469 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t446);
+    // mass matrix of the legs
+    let t470 = P::triple([P::lane(t422, 1), P::lane(t403, 2), P::lane(t397, 2)]);
+    let t471 = P::triple([c(0.0), P::lane(t403, 1) + P::lane(t403, 0), t449]);
+    // constant and copied elements
+    let t472 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t470 = neg_mul_add(t110, P::splat(t446), t422 + t423 + t443);
+    let t473 = neg_mul_add(t110, P::splat(t450), t425 + t426 + t447);
     // mass matrix of the legs
-    let t471 = t467 + t468;
+    let t474 = t470 + t471;
     // mass matrix M_p of the platform
-    let t472 = P::mul_add(platform_rotation[0][2], P::lane(t335, 2), t447);
+    let t475 = P::mul_add(platform_rotation[0][2], P::lane(t322, 2), t451);
     // constant and copied elements
-    let t473 =
+    let t476 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t474 = P::mul_add(platform_rotation[0][0], P::lane(t335, 0), t461);
-    let t475 = mul_add(P::splat(P::lane(t337, 0)), t469, t462);
+    let t477 = P::mul_add(platform_rotation[0][0], P::lane(t322, 0), t462);
+    let t478 = mul_add(P::splat(P::lane(t328, 0)), t472, t463);
+    let t479 = P::mul_add(platform_rotation[1][2], P::lane(t353, 2), t453);
+    // constant and copied elements
+    let t480 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t481 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t482 = t412 + P::triple([t461, c(0.0), c(0.0)]);
+    let t483 = platform_rotation[0][1] * P::lane(t322, 1);
+    let t484 = P::splat(P::lane(t328, 1)) * t452;
+    let t485 = P::splat(P::lane(t322, 0)) * t476;
+    // rotation of the platform seen from the base
+    let t486 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t476 = mul_sub(t110, P::splat(P::lane(t358, 2)), t449);
+    let t487 = P::triple([P::lane(t407, 1), P::lane(t407, 2), P::lane(t407, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t477 = P::neg_mul_add(P::lane(t15, 0), P::lane(t381, 1), P::lane(t394, 2));
-    let t478 = P::mul_add(P::lane(t15, 0), P::lane(t381, 2), t450);
-    let t479 = P::mul_sub(P::lane(t14, 1), P::lane(t424, 2), t451);
-    // mass matrix M_p of the platform
-    let t480 = P::mul_add(platform_rotation[1][2], P::lane(t358, 2), t452);
-    // constant and copied elements
-    let t481 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t482 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t483 = t409 + P::triple([t460, c(0.0), c(0.0)]);
-    let t484 = platform_rotation[0][1] * P::lane(t335, 1);
-    let t485 = P::splat(P::lane(t337, 1)) * t448;
-    let t486 = P::splat(P::lane(t335, 0)) * t473;
+    let t488 = mul_add(t455, t466, t438 * t445);
+    let t489 = mul_add(t456, t466, t439 * t445);
+    let t490 = mul_add(t457, t466, t440 * t445);
+    // moment of the inertia force about the platform origin
+    let t491 = neg_mul_add(t486, t487, mul_sub(t65, t465, t444));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t487 = mul_add(t454, t463, t435 * t441);
-    let t488 = mul_add(t455, t463, t436 * t441);
-    let t489 = mul_add(t456, t463, t437 * t441);
-    let t490 = mul_add(t241, t463, t285 * t441);
-    let t491 = mul_add(t248, t463, t271 * t441);
-    let t492 = mul_add(t243, t463, t286 * t441);
+    let t492 = mul_add(t241, t466, t288 * t445);
+    let t493 = mul_add(t248, t466, t272 * t445);
+    let t494 = mul_add(t243, t466, t289 * t445);
     // mass matrix of the legs
-    let t493 = P::lane(t418, 2) + (P::lane(t418, 1) + P::lane(t418, 0));
-    mass_matrix_p[1][4] = t493;
-    mass_matrix_p[4][1] = t493;
+    let t495 = P::lane(t421, 2) + (P::lane(t421, 1) + P::lane(t421, 0));
+    mass_matrix_p[1][4] = t495;
+    mass_matrix_p[4][1] = t495;
     // mass matrix M_p of the platform
-    let t494 = t466 - (P::lane(t404, 2) + (P::lane(t404, 1) + P::lane(t404, 0)));
-    mass_matrix_p[1][5] = t494;
-    mass_matrix_p[5][1] = t494;
-    let t495 = P::triple([c(0.0), t446, c(0.0)]);
+    let t496 = t469 - (P::lane(t405, 2) + (P::lane(t405, 1) + P::lane(t405, 0)));
+    mass_matrix_p[1][5] = t496;
+    mass_matrix_p[5][1] = t496;
+    let t497 = P::triple([c(0.0), t450, c(0.0)]);
     // constant and copied elements
-    let t496 =
+    let t498 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t497 =
+    let t499 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // inertia force less weight, without the actuators' own shares
-    let t498 = mul_add(t111, P::splat(P::lane(t358, 0)), t470);
+    let t500 = mul_add(t111, P::splat(P::lane(t353, 0)), t473);
     // mass matrix of the legs
-    let t499 = t471 + t495;
+    let t501 = t474 + t497;
     // mass matrix M_p of the platform
-    let t500 = neg_mul_add(P::splat(t472), t496, t483);
-    let t501 = P::mul_add(platform_rotation[0][2], P::lane(t335, 1), t474);
-    let t502 = P::mul_add(platform_rotation[0][0], P::lane(t335, 2), t484);
-    let t503 = P::triple([c(0.0), t460, c(0.0)]);
-    let t504 = mul_add(P::splat(P::lane(t335, 2)), t497, t475);
-    let t505 = mul_add(P::splat(P::lane(t335, 0)), t469, t485);
-    let t506 = mul_add(P::splat(P::lane(t337, 0)), t496, t486);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t507 = P::mul_add(P::lane(t15, 1), P::lane(t381, 0), t477);
-    let t508 = P::mul_sub(P::lane(t14, 2), P::lane(t424, 0), t478);
-    let t509 = P::neg_mul_add(P::lane(t14, 2), P::lane(t424, 1), t479);
-    // mass matrix M_p of the platform
-    let t510 = -(t464 + (P::lane(t398, 2) + (P::lane(t398, 1) + P::lane(t398, 0))));
-    mass_matrix_p[1][3] = t510;
-    mass_matrix_p[3][1] = t510;
+    let t502 = neg_mul_add(P::splat(t475), t498, t482);
+    let t503 = P::mul_add(platform_rotation[0][2], P::lane(t322, 1), t477);
+    let t504 = P::mul_add(platform_rotation[0][0], P::lane(t322, 2), t483);
+    let t505 = P::triple([c(0.0), t461, c(0.0)]);
+    let t506 = mul_add(P::splat(P::lane(t322, 2)), t499, t478);
+    let t507 = mul_add(P::splat(P::lane(t322, 0)), t472, t484);
+    let t508 = mul_add(P::splat(P::lane(t328, 0)), t498, t485);
+    let t509 = -(t467 + (P::lane(t400, 2) + (P::lane(t400, 1) + P::lane(t400, 0))));
+    mass_matrix_p[1][3] = t509;
+    mass_matrix_p[3][1] = t509;
     // constant and copied elements
-    let t511 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t510 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t512 = P::triple([P::lane(t453, 1), P::lane(t453, 2), P::lane(t453, 0)]);
+    let t511 = P::triple([P::lane(t454, 1), P::lane(t454, 2), P::lane(t454, 0)]);
     // mass matrix of the legs
-    let t513 = P::triple([P::lane(t409, 2), P::lane(t465, 2), P::lane(t439, 2)]);
-    let t514 = P::triple([c(0.0), c(0.0), P::lane(t439, 1) + P::lane(t439, 0)]);
-    let t515 = t465 + t503;
+    let t512 = P::triple([P::lane(t412, 2), P::lane(t468, 2), P::lane(t442, 2)]);
+    let t513 = P::triple([c(0.0), c(0.0), P::lane(t442, 1) + P::lane(t442, 0)]);
+    let t514 = t468 + t505;
     // mass matrix M_p of the platform
-    let t516 = P::splat(P::lane(t335, 1)) * t448;
-    let t517 = P::splat(P::lane(t337, 1)) * t473;
-    let t518 = t480 - (P::lane(t421, 2) + (P::lane(t421, 1) + P::lane(t421, 0)));
+    let t515 = P::splat(P::lane(t322, 1)) * t452;
+    let t516 = P::splat(P::lane(t328, 1)) * t476;
+    // first moments by platform coordinate of the payload's inertia force
+    let t517 = P::triple([P::lane(t464, 2), P::lane(t464, 0), P::lane(t464, 1)]);
+    // mass matrix M_p of the platform
+    let t518 = t479 - (P::lane(t424, 2) + (P::lane(t424, 1) + P::lane(t424, 0)));
     mass_matrix_p[2][3] = t518;
     mass_matrix_p[3][2] = t518;
-    let t519 = t464 - (P::lane(t420, 2) + (P::lane(t420, 1) + P::lane(t420, 0)));
+    let t519 = t467 - (P::lane(t423, 2) + (P::lane(t423, 1) + P::lane(t423, 0)));
     mass_matrix_p[0][4] = t519;
     mass_matrix_p[4][0] = t519;
-    let t520 = P::triple([t510, t493, t494]);
+    let t520 = P::triple([t509, t495, t496]);
     // inertia less external wrench that the actuators must balance
-    let t521 = neg_mul_add(t511, t512, mul_add(t453, t482, t481));
+    let t521 = neg_mul_add(t510, t511, mul_add(t454, t481, t480));
     // mass of payload and platform-side leg ends
-    let t522 = P::triple([t446, c(0.0), c(0.0)]);
+    let t522 = P::triple([t450, c(0.0), c(0.0)]);
     // inertia less external wrench that the actuators must balance
     let t523 = t520 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t524 = P::triple([P::lane(t419, 2), P::lane(t471, 2), P::lane(t457, 2)]);
-    let t525 = P::triple([c(0.0), c(0.0), P::lane(t457, 1) + P::lane(t457, 0)]);
+    let t524 = P::triple([P::lane(t422, 2), P::lane(t474, 2), P::lane(t458, 2)]);
+    let t525 = P::triple([c(0.0), c(0.0), P::lane(t458, 1) + P::lane(t458, 0)]);
     // mass matrix M_p of the platform
-    let t526 = t419 + t522;
+    let t526 = t422 + t522;
     // constant and copied elements
     let t527 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
     let t528 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t529 = mul_add(t100, P::splat(P::lane(t358, 1)), t498);
+    let t529 = mul_add(t100, P::splat(P::lane(t353, 1)), t500);
     // inertia less external wrench that the actuators must balance
-    let t530 = t499 * P::splat(platform_acceleration[1]);
+    let t530 = t501 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
     let t531 = -(P::lane(t428, 2) + (P::lane(t428, 1) + P::lane(t428, 0)));
     mass_matrix_p[0][3] = t531;
     mass_matrix_p[3][0] = t531;
     // mass matrix M_p of the platform
-    let t532 = -(t466 + (P::lane(t415, 2) + (P::lane(t415, 1) + P::lane(t415, 0))));
+    let t532 = -(t469 + (P::lane(t418, 2) + (P::lane(t418, 1) + P::lane(t418, 0))));
     mass_matrix_p[2][4] = t532;
     mass_matrix_p[4][2] = t532;
-    let t533 = -(t480 + (P::lane(t414, 2) + (P::lane(t414, 1) + P::lane(t414, 0))));
+    let t533 = -(t479 + (P::lane(t417, 2) + (P::lane(t417, 1) + P::lane(t417, 0))));
     mass_matrix_p[0][5] = t533;
     mass_matrix_p[5][0] = t533;
     // mass matrix of the legs
-    let t534 = -(P::lane(t438, 2) + (P::lane(t438, 1) + P::lane(t438, 0)));
+    let t534 = -(P::lane(t441, 2) + (P::lane(t441, 1) + P::lane(t441, 0)));
     mass_matrix_p[2][5] = t534;
     mass_matrix_p[5][2] = t534;
     // mass matrix M_p of the platform
-    let t535 = neg_mul_add(t473, P::splat(t501), t500);
-    let t536 = P::mul_add(platform_rotation[0][2], P::lane(t337, 2), t502);
-    let t537 = mul_add(P::splat(P::lane(t335, 1)), t497, t505);
-    let t538 = mul_add(P::splat(P::lane(t335, 2)), t469, t516);
-    let t539 = P::triple([c(0.0), c(0.0), t460]);
-    let t540 = mul_add(P::splat(P::lane(t335, 2)), t527, t506);
-    let t541 = mul_add(P::splat(P::lane(t335, 0)), t496, t517);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t542 = P::mul_sub(P::lane(t14, 0), P::lane(t424, 1), t507);
-    let t543 = P::neg_mul_add(P::lane(t14, 0), P::lane(t424, 2), t508);
-    let t544 = P::mul_add(P::lane(t17, 1), P::lane(t476, 2), t509);
+    let t535 = neg_mul_add(t476, P::splat(t503), t502);
+    let t536 = P::mul_add(platform_rotation[0][2], P::lane(t328, 2), t504);
+    let t537 = mul_add(P::splat(P::lane(t322, 1)), t499, t507);
+    let t538 = mul_add(P::splat(P::lane(t322, 2)), t472, t515);
+    let t539 = P::triple([c(0.0), c(0.0), t461]);
+    let t540 = mul_add(P::splat(P::lane(t322, 2)), t527, t508);
+    let t541 = mul_add(P::splat(P::lane(t322, 0)), t498, t516);
     // mass matrix of the legs
-    let t545 = P::triple([t531, t519, t533]);
+    let t542 = P::triple([t531, t519, t533]);
     // mass matrix M_p of the platform
-    let t546 = P::triple([t518, t532, t534]);
+    let t543 = P::triple([t518, t532, t534]);
     // mass matrix of the legs
-    let t547 = t513 + t514 + t539;
+    let t544 = t512 + t513 + t539;
     // mass matrix M_p of the platform
-    let t548 = P::splat(P::lane(t335, 1)) * t473;
+    let t545 = P::splat(P::lane(t322, 1)) * t476;
+    // rotation of the platform seen from the base
+    let t546 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t547 = P::triple([P::lane(t464, 1), P::lane(t464, 2), P::lane(t464, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t549 = P::triple([P::lane(t487, 0), P::lane(t488, 0), P::lane(t489, 0)]);
-    let t550 = P::triple([P::lane(t487, 1), P::lane(t488, 1), P::lane(t489, 1)]);
+    let t548 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
+    let t549 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t551 = neg_mul_add(t546, P::splat(platform_acceleration[2]), t521);
+    let t550 = neg_mul_add(t543, P::splat(platform_acceleration[2]), t521);
+    // moment of the inertia force about the platform origin
+    let t551 = neg_mul_add(t546, t547, mul_add(t67, t517, t491));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t552 = P::triple([P::lane(t490, 0), P::lane(t491, 0), P::lane(t492, 0)]);
-    let t553 = P::triple([P::lane(t490, 1), P::lane(t491, 1), P::lane(t492, 1)]);
+    let t552 = P::triple([P::lane(t492, 0), P::lane(t493, 0), P::lane(t494, 0)]);
+    let t553 = P::triple([P::lane(t492, 1), P::lane(t493, 1), P::lane(t494, 1)]);
     // inertia less external wrench that the actuators must balance
     let t554 = mul_add(t526, P::splat(platform_acceleration[0]), t530);
     // mass matrix of the legs
-    let t555 = t524 + t525 + P::triple([c(0.0), c(0.0), t446]);
+    let t555 = t524 + t525 + P::triple([c(0.0), c(0.0), t450]);
     // constant and copied elements
     let t556 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // inertia force less weight, without the actuators' own shares
-    let t557 = mul_add(t112, P::splat(P::lane(t358, 2)), t529);
+    let t557 = mul_add(t112, P::splat(P::lane(t353, 2)), t529);
     // mass matrix M_p of the platform
     let t558 = neg_mul_add(t527, P::splat(t536), t535);
-    let t559 = neg_mul_add(t537, t556, neg_mul_add(t504, t528, t515));
-    let t560 = mul_add(P::splat(P::lane(t337, 2)), t497, t538);
-    let t561 = neg_mul_add(P::splat(platform_rotation[2][0]), t540, t547);
-    let t562 = mul_add(P::splat(P::lane(t335, 1)), t527, t541);
-    let t563 = mul_add(P::splat(P::lane(t335, 2)), t496, t548);
+    let t559 = neg_mul_add(t537, t556, neg_mul_add(t506, t528, t514));
+    let t560 = mul_add(P::splat(P::lane(t328, 2)), t499, t538);
+    let t561 = neg_mul_add(P::splat(platform_rotation[2][0]), t540, t544);
+    let t562 = mul_add(P::splat(P::lane(t322, 1)), t527, t541);
+    let t563 = mul_add(P::splat(P::lane(t322, 2)), t498, t545);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t564 = P::triple([P::lane(t487, 2), P::lane(t488, 2), P::lane(t489, 2)]);
-    let t565 = P::neg_mul_add(P::lane(t14, 1), P::lane(t424, 0), t542);
-    let t566 = P::mul_add(P::lane(t17, 2), P::lane(t476, 0), t543);
-    let t567 = P::neg_mul_add(P::lane(t17, 2), P::lane(t476, 1), t544);
-    let t568 = P::triple([P::lane(t490, 2), P::lane(t491, 2), P::lane(t492, 2)]);
+    let t564 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
+    let t565 = P::triple([P::lane(t492, 2), P::lane(t493, 2), P::lane(t494, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t569 = t551 - mul_add(t545, P::splat(platform_acceleration[0]), t523);
-    let t570 = mul_add(P::splat(platform_acceleration[2]), t555, t554);
+    let t566 = t550 - mul_add(t542, P::splat(platform_acceleration[0]), t523);
+    let t567 = mul_add(P::splat(platform_acceleration[2]), t555, t554);
     // constant and copied elements
-    let t571 =
+    let t568 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t572 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t569 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t573 = neg_mul_add(t560, t571, t559);
-    let t574 = neg_mul_add(P::splat(platform_rotation[2][1]), t562, t561);
-    let t575 = mul_add(P::splat(P::lane(t337, 2)), t527, t563);
+    let t570 = neg_mul_add(t560, t568, t559);
+    let t571 = neg_mul_add(P::splat(platform_rotation[2][1]), t562, t561);
+    let t572 = mul_add(P::splat(P::lane(t328, 2)), t527, t563);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t576 = P::mul_add(P::lane(t17, 0), P::lane(t476, 1), t565);
-    let t577 = P::neg_mul_add(P::lane(t17, 0), P::lane(t476, 2), t566);
-    let t578 = mul_add(P::splat(t567), t572, t549 + t550 + t564);
+    let t573 = mul_add(P::splat(P::lane(t551, 0)), t569, t548 + t549 + t564);
     // inertia less external wrench that the actuators must balance
-    let t579 = neg_mul_add(t558, P::splat(platform_acceleration[3]), t569);
+    let t574 = neg_mul_add(t558, P::splat(platform_acceleration[3]), t566);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t580 = neg_mul_add(t572, P::splat(P::lane(t557, 0)), t552 + t553 + t568);
+    let t575 = neg_mul_add(t569, P::splat(P::lane(t557, 0)), t552 + t553 + t565);
     // mass matrix of the legs
-    let t581 = P::triple([t531, t510, t518]);
+    let t576 = P::triple([t531, t509, t518]);
     // constant and copied elements
-    let t582 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t577 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // inertia less external wrench that the actuators must balance
-    let t583 = mul_add(P::splat(platform_acceleration[3]), t581, t570);
+    let t578 = mul_add(P::splat(platform_acceleration[3]), t576, t567);
     // mass matrix M_p of the platform
-    let t584 = neg_mul_add(P::splat(platform_rotation[2][2]), t575, t574);
+    let t579 = neg_mul_add(P::splat(platform_rotation[2][2]), t572, t571);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t585 = P::neg_mul_add(P::lane(t17, 1), P::lane(t476, 0), t576);
+    let t580 = mul_add(P::splat(P::lane(t551, 1)), t577, t573);
     // inertia less external wrench that the actuators must balance
-    let t586 = neg_mul_add(t573, P::splat(platform_acceleration[4]), t579);
+    let t581 = neg_mul_add(t570, P::splat(platform_acceleration[4]), t574);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t587 = mul_sub(P::splat(P::lane(t557, 1)), t582, t580);
+    let t582 = mul_sub(P::splat(P::lane(t557, 1)), t577, t575);
     // mass matrix M_p of the platform
-    let t588 = P::triple([t519, t493, t532]);
-    let t589 = P::triple([t533, t494, t534]);
+    let t583 = P::triple([t519, t495, t532]);
+    let t584 = P::triple([t533, t496, t534]);
     // constant and copied elements
-    let t590 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t585 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
     // inertia less external wrench that the actuators must balance
-    let t591 = mul_sub(t589, P::splat(platform_acceleration[5]), t590);
+    let t586 = mul_sub(t584, P::splat(platform_acceleration[5]), t585);
     // constant and copied elements
-    let t592 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t587 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t593 = mul_add(P::splat(t585), t592, mul_add(P::splat(t577), t582, t578));
-    let t594 = mul_add(P::splat(P::lane(t557, 2)), t592, t587);
+    let t588 = mul_add(P::splat(P::lane(t551, 2)), t587, t580);
+    let t589 = mul_add(P::splat(P::lane(t557, 2)), t587, t582);
     // inertia less external wrench that the actuators must balance
-    let t595 = mul_add(P::splat(platform_acceleration[4]), t588, t583) + t591;
-    let t596 = neg_mul_add(t584, P::splat(platform_acceleration[5]), t586) + t593;
-    let t597 = t594 + t595;
-    let t598 = -P::lane(t596, 0);
-    let t599 = -P::lane(t596, 1);
-    let t600 = -P::lane(t596, 2);
+    let t590 = mul_add(P::splat(platform_acceleration[4]), t583, t578) + t586;
+    let t591 = neg_mul_add(t579, P::splat(platform_acceleration[5]), t581) + t588;
+    let t592 = t589 + t590;
+    let t593 = -P::lane(t591, 0);
+    let t594 = -P::lane(t591, 1);
+    let t595 = -P::lane(t591, 2);
     // force along the actuator that balances the remaining wrench
     let axial_reaction = solve_general(
         &[
-            [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t285, 0), P::lane(t285, 1), P::lane(t285, 2)],
-            [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t271, 0), P::lane(t271, 1), P::lane(t271, 2)],
-            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t286, 0), P::lane(t286, 1), P::lane(t286, 2)],
-            [P::lane(t454, 0), P::lane(t454, 1), P::lane(t454, 2), P::lane(t435, 0), P::lane(t435, 1), P::lane(t435, 2)],
-            [P::lane(t455, 0), P::lane(t455, 1), P::lane(t455, 2), P::lane(t436, 0), P::lane(t436, 1), P::lane(t436, 2)],
-            [P::lane(t456, 0), P::lane(t456, 1), P::lane(t456, 2), P::lane(t437, 0), P::lane(t437, 1), P::lane(t437, 2)],
+            [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t288, 0), P::lane(t288, 1), P::lane(t288, 2)],
+            [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t272, 0), P::lane(t272, 1), P::lane(t272, 2)],
+            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t289, 0), P::lane(t289, 1), P::lane(t289, 2)],
+            [P::lane(t455, 0), P::lane(t455, 1), P::lane(t455, 2), P::lane(t438, 0), P::lane(t438, 1), P::lane(t438, 2)],
+            [P::lane(t456, 0), P::lane(t456, 1), P::lane(t456, 2), P::lane(t439, 0), P::lane(t439, 1), P::lane(t439, 2)],
+            [P::lane(t457, 0), P::lane(t457, 1), P::lane(t457, 2), P::lane(t440, 0), P::lane(t440, 1), P::lane(t440, 2)],
         ],
-        &[P::lane(t597, 0), P::lane(t597, 1), P::lane(t597, 2), t598, t599, t600],
+        &[P::lane(t592, 0), P::lane(t592, 1), P::lane(t592, 2), t593, t594, t595],
     );
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t59, 0);
@@ -29646,79 +29647,79 @@ pub fn control_in_lanes<P: Triple>(
     jacobian_dp[0][1] = P::lane(t248, 0);
     jacobian_dp[0][2] = P::lane(t243, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t454, 0);
-    jacobian_dp[0][4] = P::lane(t455, 0);
-    jacobian_dp[0][5] = P::lane(t456, 0);
+    jacobian_dp[0][3] = P::lane(t455, 0);
+    jacobian_dp[0][4] = P::lane(t456, 0);
+    jacobian_dp[0][5] = P::lane(t457, 0);
     // leg 2: gradient of the actuator length
     jacobian_dp[1][0] = P::lane(t241, 1);
     jacobian_dp[1][1] = P::lane(t248, 1);
     jacobian_dp[1][2] = P::lane(t243, 1);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t454, 1);
-    jacobian_dp[1][4] = P::lane(t455, 1);
-    jacobian_dp[1][5] = P::lane(t456, 1);
+    jacobian_dp[1][3] = P::lane(t455, 1);
+    jacobian_dp[1][4] = P::lane(t456, 1);
+    jacobian_dp[1][5] = P::lane(t457, 1);
     // leg 3: gradient of the actuator length
     jacobian_dp[2][0] = P::lane(t241, 2);
     jacobian_dp[2][1] = P::lane(t248, 2);
     jacobian_dp[2][2] = P::lane(t243, 2);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t454, 2);
-    jacobian_dp[2][4] = P::lane(t455, 2);
-    jacobian_dp[2][5] = P::lane(t456, 2);
+    jacobian_dp[2][3] = P::lane(t455, 2);
+    jacobian_dp[2][4] = P::lane(t456, 2);
+    jacobian_dp[2][5] = P::lane(t457, 2);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t285, 0);
-    jacobian_dp[3][1] = P::lane(t271, 0);
-    jacobian_dp[3][2] = P::lane(t286, 0);
+    jacobian_dp[3][0] = P::lane(t288, 0);
+    jacobian_dp[3][1] = P::lane(t272, 0);
+    jacobian_dp[3][2] = P::lane(t289, 0);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t435, 0);
-    jacobian_dp[3][4] = P::lane(t436, 0);
-    jacobian_dp[3][5] = P::lane(t437, 0);
+    jacobian_dp[3][3] = P::lane(t438, 0);
+    jacobian_dp[3][4] = P::lane(t439, 0);
+    jacobian_dp[3][5] = P::lane(t440, 0);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t285, 1);
-    jacobian_dp[4][1] = P::lane(t271, 1);
-    jacobian_dp[4][2] = P::lane(t286, 1);
+    jacobian_dp[4][0] = P::lane(t288, 1);
+    jacobian_dp[4][1] = P::lane(t272, 1);
+    jacobian_dp[4][2] = P::lane(t289, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t435, 1);
-    jacobian_dp[4][4] = P::lane(t436, 1);
-    jacobian_dp[4][5] = P::lane(t437, 1);
+    jacobian_dp[4][3] = P::lane(t438, 1);
+    jacobian_dp[4][4] = P::lane(t439, 1);
+    jacobian_dp[4][5] = P::lane(t440, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t285, 2);
-    jacobian_dp[5][1] = P::lane(t271, 2);
-    jacobian_dp[5][2] = P::lane(t286, 2);
+    jacobian_dp[5][0] = P::lane(t288, 2);
+    jacobian_dp[5][1] = P::lane(t272, 2);
+    jacobian_dp[5][2] = P::lane(t289, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t435, 2);
-    jacobian_dp[5][4] = P::lane(t436, 2);
-    jacobian_dp[5][5] = P::lane(t437, 2);
+    jacobian_dp[5][3] = P::lane(t438, 2);
+    jacobian_dp[5][4] = P::lane(t439, 2);
+    jacobian_dp[5][5] = P::lane(t440, 2);
     // mass matrix M_p of the platform
     mass_matrix_p[0][0] = P::lane(t526, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t419, 1);
-    mass_matrix_p[0][2] = P::lane(t419, 2);
-    mass_matrix_p[1][0] = P::lane(t419, 1);
+    mass_matrix_p[0][1] = P::lane(t422, 1);
+    mass_matrix_p[0][2] = P::lane(t422, 2);
+    mass_matrix_p[1][0] = P::lane(t422, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t499, 1);
+    mass_matrix_p[1][1] = P::lane(t501, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t471, 2);
-    mass_matrix_p[2][0] = P::lane(t419, 2);
-    mass_matrix_p[2][1] = P::lane(t471, 2);
+    mass_matrix_p[1][2] = P::lane(t474, 2);
+    mass_matrix_p[2][0] = P::lane(t422, 2);
+    mass_matrix_p[2][1] = P::lane(t474, 2);
     // mass matrix M_p of the platform
     mass_matrix_p[2][2] = P::lane(t555, 2);
     mass_matrix_p[3][3] = P::lane(t558, 0);
     mass_matrix_p[3][4] = P::lane(t558, 1);
     mass_matrix_p[3][5] = P::lane(t558, 2);
     mass_matrix_p[4][3] = P::lane(t558, 1);
-    mass_matrix_p[4][4] = P::lane(t573, 1);
-    mass_matrix_p[4][5] = P::lane(t573, 2);
+    mass_matrix_p[4][4] = P::lane(t570, 1);
+    mass_matrix_p[4][5] = P::lane(t570, 2);
     mass_matrix_p[5][3] = P::lane(t558, 2);
-    mass_matrix_p[5][4] = P::lane(t573, 2);
-    mass_matrix_p[5][5] = P::lane(t584, 2);
+    mass_matrix_p[5][4] = P::lane(t570, 2);
+    mass_matrix_p[5][5] = P::lane(t579, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t594, 0);
-    total_bias[1] = P::lane(t594, 1);
-    total_bias[2] = P::lane(t594, 2);
-    total_bias[3] = -P::lane(t593, 0);
-    total_bias[4] = -P::lane(t593, 1);
-    total_bias[5] = -P::lane(t593, 2);
+    total_bias[0] = P::lane(t589, 0);
+    total_bias[1] = P::lane(t589, 1);
+    total_bias[2] = P::lane(t589, 2);
+    total_bias[3] = -P::lane(t588, 0);
+    total_bias[4] = -P::lane(t588, 1);
+    total_bias[5] = -P::lane(t588, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];

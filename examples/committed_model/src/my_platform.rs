@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `my_platform`, every number baked in.
 //
-// graph     uhp.json, sha256 da9b768489a704c931fe0096e503f28a807ab1a3794a83deb6843a5d68b1dbd2
+// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
 //           derived by CasADi 3.8.2
 // platform  my_platform, sha256 of its resolved numbers 886f7852017ac711714d460253875c97521dd7a6f031f093de91b55faddbe2d3
 //
