@@ -70,7 +70,7 @@ pub struct GeneratedFunction {
     pub passes: Vec<PassReport>,
     /// The graph that is printed.
     pub graph: Graph,
-    /// The same function in lanes, if it is also printed so: not where its blocks would lose more digits than [`MOST_GROWTH`].
+    /// The same function in lanes, if it is also printed so: not where its blocks would lose digits, see [`MOST_GROWTH`].
     pub in_lanes: Option<Packed>,
 }
 
@@ -209,7 +209,9 @@ pub fn optimise_without(
         let (graph, passes) = run_passes(&flat, &context);
         let in_lanes = in_lanes(function)
             .then(|| pack(&flat, groups, program.leg_count, &context))
-            .filter(|packed| packed.partition.growth <= MOST_GROWTH);
+            .filter(|packed| packed.partition.growth <= MOST_GROWTH)
+            // Pivots chosen at run time take longer than lanes save.
+            .filter(|packed| packed.graph.operation_count().solves <= graph.operation_count().solves);
         GeneratedFunction { before, passes, graph, in_lanes }
     });
     functions.iter().try_for_each(GeneratedFunction::check_growth)?;

@@ -22,8 +22,8 @@ impl Partition {
     }
 }
 
-/// The partition with the least growth; the legs in order if there is nothing to choose by: no system, no states, or a matrix
-/// that depends on parameters at run time.
+/// Of the partitions whose first block stays far from singular, the one with the least growth. The legs in order if there is
+/// none, or nothing to choose by: no system, no states, or a matrix that depends on parameters at run time.
 pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
     let in_order = Partition::in_order(legs);
     let system = graph.solves.iter().find(|solve| solve.kind == SolveKind::General);
@@ -43,7 +43,28 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
         let legs = [first, second].concat();
         Partition { growth: growth(&legs), legs, states: references.len() }
     });
-    candidates.min_by(|a, b| a.growth.total_cmp(&b.growth)).unwrap_or(in_order)
+    candidates
+        .filter(|partition| stays_regular(&references, &partition.legs))
+        .min_by(|a, b| a.growth.total_cmp(&b.growth))
+        .unwrap_or(in_order)
+}
+
+/// Least determinant of the first block, its columns scaled to length 1, over the largest one: at poses between the sampled
+/// ones it may be less, and near 0 the blocks lose every digit, however well they do at those.
+const LEAST_SHARE: f64 = 0.2;
+
+/// Whether the determinant of the first block has one sign at all states, and is small at none.
+fn stays_regular(references: &[Reference], legs: &[usize]) -> bool {
+    let determinants = references.iter().map(|reference| {
+        let columns: Block = std::array::from_fn(|j| std::array::from_fn(|i| reference.matrix[i][legs[j]]));
+        let lengths: f64 = columns.iter().map(|column| dot(*column, *column).sqrt()).product();
+        dot(columns[0], cofactors(columns)[0]) / lengths
+    });
+    let (least, most) = determinants
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), determinant| {
+            (least.min(determinant), most.max(determinant))
+        });
+    least >= LEAST_SHARE * most && least > 0.0 || most <= LEAST_SHARE * least && most < 0.0
 }
 
 /// Whether a parameter that is not baked in reaches the matrix.

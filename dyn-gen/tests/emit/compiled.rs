@@ -34,7 +34,50 @@ mod float {
     pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T { c - a * b }
 }
 mod triple {
-    pub trait Triple {}
+    use crate::float::Scalar;
+    pub trait Triple: Scalar {
+        type Lane: Scalar;
+        fn triple(lanes: [Self::Lane; 3]) -> Self;
+        fn splat(number: Self::Lane) -> Self;
+        fn lane(self, lane: usize) -> Self::Lane;
+        fn mul_add(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
+        fn mul_sub(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
+        fn neg_mul_add(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
+    }
+}
+/// As on a processor without registers for three numbers.
+#[allow(unused_macros)]
+macro_rules! single_state {
+    ($in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {
+        self::$flat($($input,)* $($output),*);
+    };
+}
+#[allow(unused_imports)]
+pub(crate) use single_state;
+mod limits {
+    pub trait Real: crate::float::Scalar {}
+    pub struct Limits<T> {
+        pub minimum_length_m: [T; 6],
+        pub maximum_length_m: [T; 6],
+        pub maximum_velocity_m_s: [T; 6],
+        pub maximum_force_n: [T; 6],
+        pub maximum_hooke_joint_angle_rad: [T; 6],
+        pub maximum_platform_joint_angle_rad: [T; 6],
+        pub home_direction_in_base: [[T; 3]; 6],
+        pub home_direction_in_platform: [[T; 3]; 6],
+        pub minimum_condition_bound: T,
+    }
+    impl<T: Real> Limits<T> {
+        pub fn none() -> Self { unreachable!() }
+    }
+}
+#[allow(unused_imports)]
+pub(crate) use limits::{Limits, Real};
+mod current {
+    pub struct VoiceCoils<T> {
+        pub force_constant_n_per_a: [T; 6],
+        pub maximum_current_a: [T; 6],
+    }
 }
 mod lanes {
     pub trait Number: crate::float::Scalar + 'static {}
