@@ -5,8 +5,8 @@ mod common;
 use common::STATES;
 use dyn_gen::graph::{Builder, Environment, Evaluator, Graph, Node, Op, Rounding};
 use dyn_gen::pack::unpack;
-use dyn_gen::{GraphFile, IN_LANES, Numbers, optimise, sampled_states};
-use dyn_platform::Platform;
+use dyn_gen::{GeneratedFunction, GraphFile, IN_LANES, Numbers, optimise, sampled_states};
+use dyn_platform::{LegType, Platform};
 
 /// Committed and test platforms of every leg type.
 fn platforms() -> Vec<Platform> {
@@ -14,6 +14,13 @@ fn platforms() -> Vec<Platform> {
         Platform::from_file(common::root().join(format!("tests/platforms/{name}.toml"))).unwrap()
     });
     common::platforms().into_iter().chain(ups).collect()
+}
+
+/// Whether the function has a general linear system, of a platform with so much room that no three legs are far from parallel to a
+/// plane everywhere.
+fn is_left_to_pivots(platform: &Platform, function: &GeneratedFunction) -> bool {
+    platform.leg_type == LegType::Ups
+        && ["inverse_dynamics", "control"].contains(&function.graph.name.as_str())
 }
 
 #[test]
@@ -25,7 +32,10 @@ fn functions_in_lanes_are_the_functions_as_derived() {
         let functions = optimise(&program, &Numbers::baked(&platform), Some(&names)).unwrap();
         for function in &functions {
             let derived = program.flatten(program.function(&function.graph.name).unwrap());
-            let packed = function.in_lanes.as_ref().expect("baked models have it in lanes");
+            let Some(packed) = &function.in_lanes else {
+                assert!(is_left_to_pivots(&platform, function), "{}: {}", platform.name, function.graph.name);
+                continue;
+            };
             assert!(packed.graph.has_lanes());
             let flat = unpack(&packed.graph);
             assert!(!flat.has_lanes());
@@ -62,9 +72,9 @@ fn instructions(graph: &Graph) -> usize {
 fn most_operations_are_three_at_a_time_for_any_platform() {
     // Tilted axes cost more, as they do without lanes: fewer constants are zero.
     let limits = [
-        ("uhp_2016", [400, 540, 1400, 740, 105]),
-        ("tilted_axes", [520, 720, 1900, 1000, 150]),
-        ("ups_regular", [470, 640, 1400, 800, 130]),
+        ("uhp_2016", [350, 450, 1280, 580, 85]),
+        ("tilted_axes", [455, 610, 1770, 710, 110]),
+        ("ups_regular", [0, 550, 1150, 0, 97]),
     ];
     for (name, limits) in limits {
         let platform = platforms().into_iter().find(|platform| platform.name == name).unwrap();
@@ -72,7 +82,7 @@ fn most_operations_are_three_at_a_time_for_any_platform() {
         let names = IN_LANES.map(str::to_owned);
         let functions = optimise(&program, &Numbers::baked(&platform), Some(&names)).unwrap();
         for (function, limit) in functions.iter().zip(limits) {
-            let packed = function.in_lanes.as_ref().unwrap();
+            let Some(packed) = &function.in_lanes else { continue };
             let found = instructions(&packed.graph);
             println!("{name}: {} {found}, {:?}", function.graph.name, packed.partition);
             assert!(
@@ -86,7 +96,7 @@ fn most_operations_are_three_at_a_time_for_any_platform() {
 
 #[test]
 fn the_legs_side_by_side_keep_the_digits() {
-    for platform in platforms() {
+    for platform in common::platforms() {
         let program = GraphFile::of(platform.leg_type).unwrap().program;
         let names = ["inverse_dynamics".to_owned()];
         let functions = optimise(&program, &Numbers::baked(&platform), Some(&names)).unwrap();
