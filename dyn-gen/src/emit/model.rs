@@ -53,7 +53,7 @@ pub struct Model<'a> {
     /// What stays a run-time number, in the order of the fields.
     pub parameters: &'a [Symbol],
     /// The types of number for which the model implements the kernel traits; its functions take any. Code is made where a
-    /// function is called; inside the runtime crate, for the first type, with the crate.
+    /// function is called: it is faster for what a caller's code tells of the arguments, and what nobody calls costs nothing.
     pub scalars: &'a [Scalar],
     /// Their values until others are given, flat, in the same order; none for a model of any platform.
     pub defaults: Option<&'a [Vec<f64>]>,
@@ -128,10 +128,8 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         if model.scalars[..place].contains(&scalar) {
             continue;
         }
-        // A model inside the runtime crate is compiled there, once; of any other, what a program calls.
-        let inline = (place > 0 || *model.runtime != RuntimePath::inside()).then(|| quote!(#[inline]));
         for signature in model.signatures {
-            items.push(implementation(model, signature, scalar, &inline)?);
+            items.push(implementation(model, signature, scalar)?);
         }
     }
     items.extend(generic::items(model)?);
@@ -189,12 +187,7 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
 }
 
 /// The kernel trait of one function for one type of number, by a call of the free function.
-fn implementation(
-    model: &Model,
-    signature: &Signature,
-    scalar: Scalar,
-    inline: &Option<TokenStream>,
-) -> Result<TokenStream, EmitError> {
+fn implementation(model: &Model, signature: &Signature, scalar: Scalar) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_identifier(model.name)?;
     let kernel = signature.kernel()?;
@@ -233,7 +226,7 @@ fn implementation(
     Ok(quote! {
         #allow
         impl #runtime::kernels::#kernel #of_number for #model_name #of_model {
-            #inline
+            #[inline]
             fn #function(&self, #(#arguments),*) {
                 #body
             }

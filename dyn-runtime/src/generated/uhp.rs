@@ -496,6 +496,7 @@ impl<T> Uhp<T> {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::RodAlignment for Uhp {
+    #[inline]
     fn rod_alignment(
         &self,
         base_position: &[f64; 3],
@@ -517,6 +518,7 @@ impl crate::kernels::RodAlignment for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::LegKinematics for Uhp {
+    #[inline]
     fn leg_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -558,6 +560,7 @@ impl crate::kernels::LegKinematics for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::BodyKinematics for Uhp {
+    #[inline]
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -607,6 +610,7 @@ impl crate::kernels::uhp::BodyKinematics for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::PartialVelocities for Uhp {
+    #[inline]
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -636,6 +640,7 @@ impl crate::kernels::uhp::PartialVelocities for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::GeneralisedForces for Uhp {
+    #[inline]
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -679,6 +684,7 @@ impl crate::kernels::uhp::GeneralisedForces for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDp for Uhp {
+    #[inline]
     fn jacobian_dp(
         &self,
         base_position: &[f64; 3],
@@ -700,6 +706,7 @@ impl crate::kernels::JacobianDp for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDb for Uhp {
+    #[inline]
     fn jacobian_db(
         &self,
         base_position: &[f64; 3],
@@ -721,6 +728,7 @@ impl crate::kernels::JacobianDb for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixP for Uhp {
+    #[inline]
     fn mass_matrix_p(
         &self,
         base_position: &[f64; 3],
@@ -742,6 +750,7 @@ impl crate::kernels::MassMatrixP for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixB for Uhp {
+    #[inline]
     fn mass_matrix_b(
         &self,
         base_position: &[f64; 3],
@@ -763,6 +772,7 @@ impl crate::kernels::MassMatrixB for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::CoriolisMatrices for Uhp {
+    #[inline]
     fn coriolis_matrices(
         &self,
         base_position: &[f64; 3],
@@ -790,6 +800,7 @@ impl crate::kernels::CoriolisMatrices for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::StiffnessMatrices for Uhp {
+    #[inline]
     fn stiffness_matrices(
         &self,
         base_position: &[f64; 3],
@@ -813,6 +824,7 @@ impl crate::kernels::StiffnessMatrices for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Matrices for Uhp {
+    #[inline]
     fn matrices(
         &self,
         base_position: &[f64; 3],
@@ -843,6 +855,7 @@ impl crate::kernels::Matrices for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveForces for Uhp {
+    #[inline]
     fn passive_forces(
         &self,
         base_position: &[f64; 3],
@@ -872,6 +885,7 @@ impl crate::kernels::PassiveForces for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Bias for Uhp {
+    #[inline]
     fn bias(
         &self,
         base_position: &[f64; 3],
@@ -897,6 +911,7 @@ impl crate::kernels::Bias for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::EquationOfMotion for Uhp {
+    #[inline]
     fn equation_of_motion(
         &self,
         base_position: &[f64; 3],
@@ -944,6 +959,7 @@ impl crate::kernels::EquationOfMotion for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::InverseDynamics for Uhp {
+    #[inline]
     fn inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -971,6 +987,7 @@ impl crate::kernels::InverseDynamics for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ActuatorGeometry for Uhp {
+    #[inline]
     fn actuator_geometry(
         &self,
         base_position: &[f64; 3],
@@ -993,6 +1010,7 @@ impl crate::kernels::ActuatorGeometry for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Control for Uhp {
+    #[inline]
     fn control(
         &self,
         base_position: &[f64; 3],
@@ -1026,6 +1044,7 @@ impl crate::kernels::Control for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveInverseDynamics for Uhp {
+    #[inline]
     fn passive_inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -1059,6 +1078,7 @@ impl crate::kernels::PassiveInverseDynamics for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::BaseReaction for Uhp {
+    #[inline]
     fn base_reaction(
         &self,
         base_position: &[f64; 3],
@@ -1090,6 +1110,7 @@ impl crate::kernels::BaseReaction for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ForwardDynamics for Uhp {
+    #[inline]
     fn forward_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -1117,6 +1138,7 @@ impl crate::kernels::ForwardDynamics for Uhp {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Energy for Uhp {
+    #[inline]
     fn energy(
         &self,
         base_position: &[f64; 3],

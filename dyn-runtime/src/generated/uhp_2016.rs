@@ -106,6 +106,7 @@ impl Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::RodAlignment for Uhp2016 {
+    #[inline]
     fn rod_alignment(
         &self,
         base_position: &[f64; 3],
@@ -126,6 +127,7 @@ impl crate::kernels::RodAlignment for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::LegKinematics for Uhp2016 {
+    #[inline]
     fn leg_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -166,6 +168,7 @@ impl crate::kernels::LegKinematics for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::BodyKinematics for Uhp2016 {
+    #[inline]
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -214,6 +217,7 @@ impl crate::kernels::uhp::BodyKinematics for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::PartialVelocities for Uhp2016 {
+    #[inline]
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -242,6 +246,7 @@ impl crate::kernels::uhp::PartialVelocities for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::uhp::GeneralisedForces for Uhp2016 {
+    #[inline]
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -284,6 +289,7 @@ impl crate::kernels::uhp::GeneralisedForces for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDp for Uhp2016 {
+    #[inline]
     fn jacobian_dp(
         &self,
         base_position: &[f64; 3],
@@ -304,6 +310,7 @@ impl crate::kernels::JacobianDp for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDb for Uhp2016 {
+    #[inline]
     fn jacobian_db(
         &self,
         base_position: &[f64; 3],
@@ -324,6 +331,7 @@ impl crate::kernels::JacobianDb for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixP for Uhp2016 {
+    #[inline]
     fn mass_matrix_p(
         &self,
         base_position: &[f64; 3],
@@ -344,6 +352,7 @@ impl crate::kernels::MassMatrixP for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixB for Uhp2016 {
+    #[inline]
     fn mass_matrix_b(
         &self,
         base_position: &[f64; 3],
@@ -364,6 +373,7 @@ impl crate::kernels::MassMatrixB for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::CoriolisMatrices for Uhp2016 {
+    #[inline]
     fn coriolis_matrices(
         &self,
         base_position: &[f64; 3],
@@ -390,6 +400,7 @@ impl crate::kernels::CoriolisMatrices for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::StiffnessMatrices for Uhp2016 {
+    #[inline]
     fn stiffness_matrices(
         &self,
         base_position: &[f64; 3],
@@ -412,6 +423,7 @@ impl crate::kernels::StiffnessMatrices for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Matrices for Uhp2016 {
+    #[inline]
     fn matrices(
         &self,
         base_position: &[f64; 3],
@@ -440,6 +452,7 @@ impl crate::kernels::Matrices for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveForces for Uhp2016 {
+    #[inline]
     fn passive_forces(
         &self,
         base_position: &[f64; 3],
@@ -468,6 +481,7 @@ impl crate::kernels::PassiveForces for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Bias for Uhp2016 {
+    #[inline]
     fn bias(
         &self,
         base_position: &[f64; 3],
@@ -492,6 +506,7 @@ impl crate::kernels::Bias for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::EquationOfMotion for Uhp2016 {
+    #[inline]
     fn equation_of_motion(
         &self,
         base_position: &[f64; 3],
@@ -538,6 +553,7 @@ impl crate::kernels::EquationOfMotion for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::InverseDynamics for Uhp2016 {
+    #[inline]
     fn inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -563,6 +579,7 @@ impl crate::kernels::InverseDynamics for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ActuatorGeometry for Uhp2016 {
+    #[inline]
     fn actuator_geometry(
         &self,
         base_position: &[f64; 3],
@@ -584,6 +601,7 @@ impl crate::kernels::ActuatorGeometry for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Control for Uhp2016 {
+    #[inline]
     fn control(
         &self,
         base_position: &[f64; 3],
@@ -616,6 +634,7 @@ impl crate::kernels::Control for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveInverseDynamics for Uhp2016 {
+    #[inline]
     fn passive_inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -648,6 +667,7 @@ impl crate::kernels::PassiveInverseDynamics for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::BaseReaction for Uhp2016 {
+    #[inline]
     fn base_reaction(
         &self,
         base_position: &[f64; 3],
@@ -678,6 +698,7 @@ impl crate::kernels::BaseReaction for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ForwardDynamics for Uhp2016 {
+    #[inline]
     fn forward_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -703,6 +724,7 @@ impl crate::kernels::ForwardDynamics for Uhp2016 {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Energy for Uhp2016 {
+    #[inline]
     fn energy(
         &self,
         base_position: &[f64; 3],

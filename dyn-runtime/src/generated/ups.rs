@@ -470,6 +470,7 @@ impl<T> Ups<T> {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::RodAlignment for Ups {
+    #[inline]
     fn rod_alignment(
         &self,
         base_position: &[f64; 3],
@@ -491,6 +492,7 @@ impl crate::kernels::RodAlignment for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::LegKinematics for Ups {
+    #[inline]
     fn leg_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -532,6 +534,7 @@ impl crate::kernels::LegKinematics for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ups::BodyKinematics for Ups {
+    #[inline]
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -581,6 +584,7 @@ impl crate::kernels::ups::BodyKinematics for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ups::PartialVelocities for Ups {
+    #[inline]
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -610,6 +614,7 @@ impl crate::kernels::ups::PartialVelocities for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ups::GeneralisedForces for Ups {
+    #[inline]
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -653,6 +658,7 @@ impl crate::kernels::ups::GeneralisedForces for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDp for Ups {
+    #[inline]
     fn jacobian_dp(
         &self,
         base_position: &[f64; 3],
@@ -674,6 +680,7 @@ impl crate::kernels::JacobianDp for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::JacobianDb for Ups {
+    #[inline]
     fn jacobian_db(
         &self,
         base_position: &[f64; 3],
@@ -695,6 +702,7 @@ impl crate::kernels::JacobianDb for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixP for Ups {
+    #[inline]
     fn mass_matrix_p(
         &self,
         base_position: &[f64; 3],
@@ -716,6 +724,7 @@ impl crate::kernels::MassMatrixP for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::MassMatrixB for Ups {
+    #[inline]
     fn mass_matrix_b(
         &self,
         base_position: &[f64; 3],
@@ -737,6 +746,7 @@ impl crate::kernels::MassMatrixB for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::CoriolisMatrices for Ups {
+    #[inline]
     fn coriolis_matrices(
         &self,
         base_position: &[f64; 3],
@@ -764,6 +774,7 @@ impl crate::kernels::CoriolisMatrices for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::StiffnessMatrices for Ups {
+    #[inline]
     fn stiffness_matrices(
         &self,
         base_position: &[f64; 3],
@@ -787,6 +798,7 @@ impl crate::kernels::StiffnessMatrices for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Matrices for Ups {
+    #[inline]
     fn matrices(
         &self,
         base_position: &[f64; 3],
@@ -817,6 +829,7 @@ impl crate::kernels::Matrices for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveForces for Ups {
+    #[inline]
     fn passive_forces(
         &self,
         base_position: &[f64; 3],
@@ -846,6 +859,7 @@ impl crate::kernels::PassiveForces for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Bias for Ups {
+    #[inline]
     fn bias(
         &self,
         base_position: &[f64; 3],
@@ -871,6 +885,7 @@ impl crate::kernels::Bias for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::EquationOfMotion for Ups {
+    #[inline]
     fn equation_of_motion(
         &self,
         base_position: &[f64; 3],
@@ -918,6 +933,7 @@ impl crate::kernels::EquationOfMotion for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::InverseDynamics for Ups {
+    #[inline]
     fn inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -945,6 +961,7 @@ impl crate::kernels::InverseDynamics for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ActuatorGeometry for Ups {
+    #[inline]
     fn actuator_geometry(
         &self,
         base_position: &[f64; 3],
@@ -967,6 +984,7 @@ impl crate::kernels::ActuatorGeometry for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Control for Ups {
+    #[inline]
     fn control(
         &self,
         base_position: &[f64; 3],
@@ -1000,6 +1018,7 @@ impl crate::kernels::Control for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::PassiveInverseDynamics for Ups {
+    #[inline]
     fn passive_inverse_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -1033,6 +1052,7 @@ impl crate::kernels::PassiveInverseDynamics for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::BaseReaction for Ups {
+    #[inline]
     fn base_reaction(
         &self,
         base_position: &[f64; 3],
@@ -1064,6 +1084,7 @@ impl crate::kernels::BaseReaction for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ForwardDynamics for Ups {
+    #[inline]
     fn forward_dynamics(
         &self,
         base_position: &[f64; 3],
@@ -1091,6 +1112,7 @@ impl crate::kernels::ForwardDynamics for Ups {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::Energy for Ups {
+    #[inline]
     fn energy(
         &self,
         base_position: &[f64; 3],
