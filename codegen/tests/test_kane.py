@@ -62,7 +62,8 @@ def test_kane_sums_equal_their_definition(coaxial):
     sx += sx if coaxial else [ca.SX(v) for v in (gradient, gradient_rate)]
     squares = sum((weight * v @ v.T for weight, v in kane.joint_inertia_squares(leg, sx[0], sx[2])), ca.SX.zeros(3, 3))
 
-    axial, joint = kane.inertia_forces(leg, sx[0], numbers)
+    components = {name: ca.dot(sx[0], y) for name, y in numbers.items()}
+    axial, joint = kane.inertia_forces(leg, numbers, components)
     cases = [
         (ca.SX(sx[2] * axial + joint), weighted(leg, lambda k, l: d[k].T @ vectors[l])[:, None]),
         (kane.joint_inertia(leg, sx[0], sx[2]), weighted(leg, lambda k, l: d[k].T @ d[l])),

@@ -50,15 +50,14 @@ def test_rates_are_the_time_derivatives(motion):
     axis, s = ca.SX(AXIS), ca.SX(ROD)
     velocity, acceleration = ca.jacobian(x, t), ca.SX(x2)
     leg = closure(x, axis, s)
-    rates = uhp.leg_rates.derive(velocity, leg["radial_offset"], leg["axial_span_reciprocal"], axis)
     gradient = uhp.length_gradient.derive(leg["radial_offset"], leg["axial_span_reciprocal"], axis)["length_gradient"]
+    rates = uhp.leg_rates.derive(velocity, gradient, axis)
     gradient_rate = uhp.length_gradient_rate.derive(
         ca.SX.zeros(3), gradient, leg["radial_offset"], rates["radial_offset_rate"], rates["axial_span_rate"],
         leg["axial_span_reciprocal"],
     )["length_gradient_rate"]
     second = uhp.leg_accelerations.derive(
-        acceleration, leg["radial_offset"], rates["radial_offset_rate"], rates["axial_span_rate"],
-        leg["axial_span_reciprocal"], axis,
+        acceleration, gradient, rates["radial_offset_rate"], rates["axial_span_rate"], leg["axial_span_reciprocal"],
     )["actuator_acceleration"]
     first = ca.jacobian(leg["actuator_length"], t)
     for explicit, derived in [
