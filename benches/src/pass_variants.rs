@@ -32,7 +32,7 @@ impl Variant {
     }
 }
 
-/// Every pass; each pass and each step of packing left out; each pass alone beside [`NEEDED`], and none beside them.
+/// Every pass; each pass and each step of packing left out; each pass alone beside `NEEDED`, and none beside them.
 pub fn variants() -> Vec<Variant> {
     let names = || PASSES.iter().map(|pass| pass.name).filter(|name| !NEEDED.contains(name));
     let variant = |name: String, without: Vec<&str>| Variant {
