@@ -167,6 +167,7 @@ fn a_model_file() {
 
         #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
         impl crate::kernels::RodDirection for TestModel {
+            #[inline]
             fn rod_direction(&self, platform_position: &[f64; 3], rod_direction: &mut [f64; 3]) {
                 self::rod_direction(&self.parameters, platform_position, rod_direction);
             }
