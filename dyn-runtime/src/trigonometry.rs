@@ -78,11 +78,15 @@ pub(crate) const OF_F32: Constants = Constants {
 /// Sine and cosine of angles in radians, in this order; NaN where they are not finite.
 #[inline(always)]
 pub(crate) fn sine_cosine<T: Lanes>(x: T) -> (T, T) {
-    let Constants { largest, round, parts: (first, between, last), .. } = T::Number::SINE_COSINE;
+    let near = x.absolute().less_than(T::constant(T::Number::SINE_COSINE.largest));
+    if T::bits(near) == u32::MAX >> (32 - T::COUNT) { of_near(x) } else { with_libm(x) }
+}
+
+/// [`sine_cosine`] where all angles are below the largest one.
+#[inline(always)]
+pub(crate) fn of_near<T: Lanes>(x: T) -> (T, T) {
+    let Constants { round, parts: (first, between, last), .. } = T::Number::SINE_COSINE;
     let size = x.absolute();
-    if T::bits(size.less_than(T::constant(*largest))) != u32::MAX >> (32 - T::COUNT) {
-        return with_libm(x);
-    }
     let sum = size * T::constant(core::f64::consts::FRAC_2_PI) + T::constant(*round);
     let quarter_turns = sum - T::constant(*round);
     let mut rest = size - quarter_turns * T::constant(*first);
@@ -155,7 +159,7 @@ fn each_with_libm<S: Number>(angles: &[S; MOST_LANES]) -> ([S; MOST_LANES], [S; 
     for ((sine, cosine), angle) in found.0.iter_mut().zip(&mut found.1).zip(angles) {
         // What is near keeps its bits beside what is far.
         let near = angle.abs() < S::constant(S::SINE_COSINE.largest);
-        (*sine, *cosine) = if near { angle.sine_cosine() } else { angle.sine_cosine_of_libm() };
+        (*sine, *cosine) = if near { angle.sine_cosine_of_near() } else { angle.sine_cosine_of_libm() };
     }
     found
 }

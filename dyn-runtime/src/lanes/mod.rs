@@ -137,6 +137,10 @@ pub trait Number: Real {
 
     #[doc(hidden)]
     fn sine_cosine_of_libm(self) -> (Self, Self);
+
+    /// The same of an angle that is known to be near.
+    #[doc(hidden)]
+    fn sine_cosine_of_near(self) -> (Self, Self);
 }
 
 /// Instructions that this processor has.
@@ -235,6 +239,11 @@ macro_rules! number {
 
             fn sine_cosine_of_libm(self) -> (Self, Self) {
                 libm::$libm(self)
+            }
+
+            #[inline]
+            fn sine_cosine_of_near(self) -> (Self, Self) {
+                crate::trigonometry::of_near(self)
             }
 
             #[inline]
