@@ -1,7 +1,7 @@
 //! Which legs stand side by side: the blocks of the linear system for the actuators' reactions are made of them.
 
-use crate::graph::{Environment, Evaluator, Graph, Node, Solve, SolveKind, solve_general};
-use crate::passes::Context;
+use crate::graph::{Environment, Evaluator, Graph, Solve, SolveKind, solve_general};
+use crate::passes::{Context, depends_on_parameters};
 
 /// Legs in two times three lanes, and how the solve in blocks of them does over the sampled states.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
@@ -65,21 +65,6 @@ fn stays_regular(references: &[Reference], legs: &[usize]) -> bool {
             (least.min(determinant), most.max(determinant))
         });
     least >= LEAST_SHARE * most && least > 0.0 || most <= LEAST_SHARE * least && most < 0.0
-}
-
-/// Whether a parameter that is not baked in reaches the matrix.
-fn depends_on_parameters(graph: &Graph, solve: &Solve, context: &Context) -> bool {
-    let mut needed = vec![false; graph.nodes.len()];
-    solve.matrix.iter().for_each(|id| needed[id.index()] = true);
-    graph.mark_needed(&mut needed);
-    let at_run_time = |node: &Node| match *node {
-        Node::Input { input, .. } => {
-            let symbol = &graph.inputs[input as usize];
-            symbol.parameter && !context.parameters.contains_key(&symbol.name)
-        }
-        _ => false,
-    };
-    graph.nodes.iter().zip(needed).any(|(node, needed)| needed && at_run_time(node))
 }
 
 /// The matrix at every sampled state, row-major.

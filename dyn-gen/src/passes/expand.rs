@@ -74,7 +74,7 @@ fn order_for(
     context: &Context,
     builder: &Builder,
 ) -> Option<PivotOrder> {
-    if depends_on_parameter(graph, old) {
+    if depends_on_parameters(graph, old, context) {
         return None;
     }
     let n = solve.right_hand_side.len();
@@ -82,13 +82,19 @@ fn order_for(
     choose_order(&old.name, n, &sampled_matrices(graph, old, context), &constant)
 }
 
-fn depends_on_parameter(graph: &Graph, solve: &Solve) -> bool {
+/// Whether a parameter that is not baked in reaches the matrix.
+pub(crate) fn depends_on_parameters(graph: &Graph, solve: &Solve, context: &Context) -> bool {
     let mut needed = vec![false; graph.nodes.len()];
-    solve.matrix.iter().for_each(|node| needed[node.index()] = true);
+    solve.matrix.iter().for_each(|id| needed[id.index()] = true);
     graph.mark_needed(&mut needed);
-    let is_parameter =
-        |node: &Node| matches!(node, Node::Input { input, .. } if graph.inputs[*input as usize].parameter);
-    graph.nodes.iter().zip(needed).any(|(node, needed)| needed && is_parameter(node))
+    let at_run_time = |node: &Node| match *node {
+        Node::Input { input, .. } => {
+            let symbol = &graph.inputs[input as usize];
+            symbol.parameter && !context.parameters.contains_key(&symbol.name)
+        }
+        _ => false,
+    };
+    graph.nodes.iter().zip(needed).any(|(node, needed)| needed && at_run_time(node))
 }
 
 /// The matrix at every sampled state.

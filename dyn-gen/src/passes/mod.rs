@@ -28,6 +28,7 @@ mod simplify;
 use crate::graph::{Environment, Graph, OperationCount};
 
 pub(crate) use bake::known_values;
+pub(crate) use expand::depends_on_parameters;
 pub use pivot::PivotOrder;
 pub(crate) use rewrite::Images;
 pub(crate) use simplify::simplified;
