@@ -13,65 +13,72 @@
 //! directions of A are far from lying in one plane, and where the condition is known to be good; [`Blocks::of`] gives nothing
 //! otherwise, and elimination with pivots does the work.
 
+use crate::float::{mul_add, mul_sub};
 use crate::real::Real;
 use crate::triple::Triple;
-
-type Vector<T> = [T; 3];
-type Matrix<T> = [[T; 3]; 3];
 
 /// Least square of the volume that the directions of legs 1, 3, 5 span, each of length 1: growth of rounding errors stays
 /// below about a hundred.
 const MIN_SQUARED_VOLUME: f64 = 1e-4;
 
-/// J_dp, ready to be solved with.
+/// J_dp, ready to be solved with. A `P` is a vector in O, or a row of a matrix.
 #[derive(Clone, Copy)]
-pub(crate) struct Blocks<T> {
-    /// The adjugate of A: det A times its inverse.
-    adjugate: Matrix<T>,
+pub(crate) struct Blocks<P: Triple> {
+    /// Columns of the adjugate of A: det A times its inverse.
+    adjugate: [P; 3],
     /// det A.
-    volume: T,
+    volume: P::Lane,
     /// 1 / det A.
-    inverse_volume: T,
-    /// (det A) A^-1 B.
-    coupling: Matrix<T>,
-    /// C.
-    lower: Matrix<T>,
-    /// The adjugate of (det A) S.
-    complement_adjugate: Matrix<T>,
+    inverse_volume: P::Lane,
+    /// Rows of B.
+    right: [P; 3],
+    /// Rows of C.
+    lower: [P; 3],
+    /// Columns of the adjugate of (det A) S.
+    complement_adjugate: [P; 3],
     /// 1 / det((det A) S).
-    inverse_complement: T,
+    inverse_complement: P::Lane,
 }
 
-impl<T: Real> Blocks<T> {
+impl<T: Real, P: Triple<Lane = T>> Blocks<P> {
     /// `None` unless the reciprocal condition of J_dp is certainly at least [`Real::MIN_RECIPROCAL_CONDITION`].
-    ///
-    /// Of `P` the arithmetic counts: how a product in a sum is rounded.
     #[inline(always)]
-    pub fn of<P: Triple<Lane = T>>(jacobian_dp: &[[T; 6]; 6]) -> Option<Self> {
-        // Neither `map` nor a loop: both are calls and copies here, which cost as much as the arithmetic.
+    pub fn of(jacobian_dp: &[[T; 6]; 6]) -> Option<Self> {
+        // Neither closures nor `map` nor loops: they are calls here, compiled for no registers, and cost more than the arithmetic.
         let [first, second, third, fourth, fifth, sixth] = jacobian_dp;
-        let upper = [direction(first), direction(third), direction(fifth)];
-        let right = [moment(first), moment(third), moment(fifth)];
-        let lower = [direction(second), direction(fourth), direction(sixth)];
-        let lower_right = [moment(second), moment(fourth), moment(sixth)];
-        let (adjugate, volume) = adjugated::<P>(&upper);
-        let coupling = product::<P>(&adjugate, &right);
-        let below = product::<P>(&lower, &coupling);
-        let complement = |k: usize| scaled_difference::<P>(&lower_right[k], volume, &below[k]);
-        let (complement_adjugate, complement_volume) =
-            adjugated::<P>(&[complement(0), complement(1), complement(2)]);
+        let upper = [direction::<P>(first), direction(third), direction(fifth)];
+        let right = [moment::<P>(first), moment(third), moment(fifth)];
+        let lower = [direction::<P>(second), direction(fourth), direction(sixth)];
+        let lower_right = [moment::<P>(second), moment(fourth), moment(sixth)];
+        let (adjugate, volume) = adjugated(&upper);
+        // (det A) A^-1 B
+        let [one, two, three] = &adjugate;
+        let coupling = [
+            combined([one.lane(0), two.lane(0), three.lane(0)], &right),
+            combined([one.lane(1), two.lane(1), three.lane(1)], &right),
+            combined([one.lane(2), two.lane(2), three.lane(2)], &right),
+        ];
+        let determinant_a = P::splat(volume);
+        let (complement_adjugate, complement_volume) = adjugated(&[
+            mul_sub(lower_right[0], determinant_a, combined(components(lower[0]), &coupling)),
+            mul_sub(lower_right[1], determinant_a, combined(components(lower[1]), &coupling)),
+            mul_sub(lower_right[2], determinant_a, combined(components(lower[2]), &coupling)),
+        ]);
         let (inverse_volume, inverse_complement) = (T::one() / volume, T::one() / complement_volume);
 
         // As `check::jacobian_condition_bound`, squared, with the largest that the 1-norm of the scaled matrix can be,
         // sqrt(6) |A|_F = sqrt(72): (0.04575 / sqrt(72))^2 det^2 >= MIN^2, det being that of the scaled matrix.
-        let square = |vector: &Vector<T>| dot::<P>(vector, vector);
-        let (s1, s3, s5) = (square(&upper[0]), square(&upper[1]), square(&upper[2]));
-        let (s2, s4, s6) = (square(&lower[0]), square(&lower[1]), square(&lower[2]));
+        let (s1, s3, s5) = (squared(first), squared(third), squared(fifth));
+        let (s2, s4, s6) = (squared(second), squared(fourth), squared(sixth));
         let (upper_squares, lower_squares) = (s1 * s3 * s5, s2 * s4 * s6);
         // Of arms without their directions' lengths: one division instead of six, and no less for it.
         let shortest = less(less(less(s1, s2), less(s3, s4)), less(s5, s6));
-        let arms = (square(&right[0]) + square(&right[1]) + square(&right[2]))
-            + (square(&lower_right[0]) + square(&lower_right[1]) + square(&lower_right[2]));
+        let arms = sum(mul_add(right[2], right[2], mul_add(right[1], right[1], right[0] * right[0])))
+            + sum(mul_add(
+                lower_right[2],
+                lower_right[2],
+                mul_add(lower_right[1], lower_right[1], lower_right[0] * lower_right[0]),
+            ));
         let arm_squared = arms * T::constant(1.0 / 6.0) / shortest;
         // det J_dp = det A det S, and det((det A) S) = (det A)^3 det S.
         let determinant = complement_volume * inverse_volume * inverse_volume;
@@ -80,42 +87,55 @@ impl<T: Real> Blocks<T> {
             > least * least * (upper_squares * lower_squares) * (arm_squared * arm_squared * arm_squared);
         let is_voluminous = volume * volume > T::constant(MIN_SQUARED_VOLUME) * upper_squares;
         // Not short of one another: what is not finite passes neither.
-        let blocks = Self {
-            adjugate,
-            volume,
-            inverse_volume,
-            coupling,
-            lower,
-            complement_adjugate,
-            inverse_complement,
-        };
+        let blocks =
+            Self { adjugate, volume, inverse_volume, right, lower, complement_adjugate, inverse_complement };
         (is_regular & is_voluminous).then_some(blocks)
     }
 
-    /// The twist with `J_dp twist = rates`.
+    /// [`solve`](Self::solve), as six numbers.
     #[inline(always)]
-    pub fn solve<P: Triple<Lane = T>>(&self, rates: &[T; 6]) -> [T; 6] {
-        let [r1, q1, r2, q2, r3, q3] = *rates;
-        let alone = applied::<P>(&self.adjugate, &[r1, r2, r3]);
-        let rest = scaled_difference::<P>(&[q1, q2, q3], self.volume, &applied::<P>(&self.lower, &alone));
-        let [wx, wy, wz] = scaled(&applied::<P>(&self.complement_adjugate, &rest), self.inverse_complement);
-        let held = |k: usize| {
-            let [x, y, z] = self.coupling[k];
-            P::neg_mul_add(z, wz, P::neg_mul_add(y, wy, P::neg_mul_add(x, wx, alone[k])))
-        };
-        let [x, y, z] = scaled(&[held(0), held(1), held(2)], self.inverse_volume);
+    pub fn twist(&self, rates: &[T; 6]) -> [T; 6] {
+        let (linear, angular) = self.solve(rates);
+        let ([x, y, z], [wx, wy, wz]) = (components(linear), components(angular));
         [x, y, z, wx, wy, wz]
+    }
+
+    /// The twist with `J_dp twist = rates`, its linear and its angular half.
+    #[inline(always)]
+    pub fn solve(&self, rates: &[T; 6]) -> (P, P) {
+        let [r1, q1, r2, q2, r3, q3] = *rates;
+        // (det A) A^-1 r
+        let alone = combined([r1, r2, r3], &self.adjugate);
+        let rest = [
+            less_product(self.volume * q1, self.lower[0], alone),
+            less_product(self.volume * q2, self.lower[1], alone),
+            less_product(self.volume * q3, self.lower[2], alone),
+        ];
+        let angular = combined(rest, &self.complement_adjugate) * P::splat(self.inverse_complement);
+        let held = [
+            less_product(r1, self.right[0], angular),
+            less_product(r2, self.right[1], angular),
+            less_product(r3, self.right[2], angular),
+        ];
+        let linear = combined(held, &self.adjugate) * P::splat(self.inverse_volume);
+        (linear, angular)
     }
 }
 
 #[inline(always)]
-fn direction<T: Real>(row: &[T; 6]) -> Vector<T> {
-    [row[0], row[1], row[2]]
+fn direction<P: Triple>(row: &[P::Lane; 6]) -> P {
+    P::triple([row[0], row[1], row[2]])
 }
 
 #[inline(always)]
-fn moment<T: Real>(row: &[T; 6]) -> Vector<T> {
-    [row[3], row[4], row[5]]
+fn moment<P: Triple>(row: &[P::Lane; 6]) -> P {
+    P::triple([row[3], row[4], row[5]])
+}
+
+/// The square of a direction's length.
+#[inline(always)]
+fn squared<T: Real>(row: &[T; 6]) -> T {
+    row[0] * row[0] + row[1] * row[1] + row[2] * row[2]
 }
 
 #[inline(always)]
@@ -123,61 +143,49 @@ fn less<T: Real>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
-/// `a . b`
 #[inline(always)]
-pub(crate) fn dot<P: Triple>(a: &Vector<P::Lane>, b: &Vector<P::Lane>) -> P::Lane {
-    P::mul_add(a[2], b[2], P::mul_add(a[1], b[1], a[0] * b[0]))
+pub(crate) fn components<P: Triple>(vector: P) -> [P::Lane; 3] {
+    [vector.lane(0), vector.lane(1), vector.lane(2)]
+}
+
+/// The sum of the three components.
+#[inline(always)]
+pub(crate) fn sum<P: Triple>(vector: P) -> P::Lane {
+    vector.lane(0) + vector.lane(1) + vector.lane(2)
+}
+
+/// `number - a . b`
+#[inline(always)]
+fn less_product<P: Triple>(number: P::Lane, a: P, b: P) -> P::Lane {
+    let ([a, b, c], [x, y, z]) = (components(a), components(b));
+    P::neg_mul_add(c, z, P::neg_mul_add(b, y, P::neg_mul_add(a, x, number)))
+}
+
+/// Components 2, 3, 1.
+#[inline(always)]
+fn cycled<P: Triple>(vector: P) -> P {
+    P::triple([vector.lane(1), vector.lane(2), vector.lane(0)])
 }
 
 #[inline(always)]
-fn cross<P: Triple>(a: &Vector<P::Lane>, b: &Vector<P::Lane>) -> Vector<P::Lane> {
-    let minor = |i: usize, k: usize| P::mul_sub(a[i], b[k], a[k] * b[i]);
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
+fn cross<P: Triple>(a: P, b: P) -> P {
+    cycled(mul_sub(a, cycled(b), cycled(a) * b))
 }
 
-/// `a - b`
+/// The sum of three vectors, each times its factor: a row times a matrix.
 #[inline(always)]
-pub(crate) fn difference<T: Real>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+pub(crate) fn combined<P: Triple>(factors: [P::Lane; 3], vectors: &[P; 3]) -> P {
+    let [x, y, z] = factors;
+    let [a, b, c] = *vectors;
+    mul_add(c, P::splat(z), mul_add(b, P::splat(y), a * P::splat(x)))
 }
 
+/// The columns of the determinant times the inverse, by cross products of the rows, and the determinant.
 #[inline(always)]
-fn applied<P: Triple>(matrix: &Matrix<P::Lane>, vector: &Vector<P::Lane>) -> Vector<P::Lane> {
-    [dot::<P>(&matrix[0], vector), dot::<P>(&matrix[1], vector), dot::<P>(&matrix[2], vector)]
-}
-
-/// `left right`
-#[inline(always)]
-pub(crate) fn product<P: Triple>(left: &Matrix<P::Lane>, right: &Matrix<P::Lane>) -> Matrix<P::Lane> {
-    let element = |[x, y, z]: &Vector<P::Lane>, k: usize| {
-        P::mul_add(*z, right[2][k], P::mul_add(*y, right[1][k], *x * right[0][k]))
-    };
-    let row = |of: &Vector<P::Lane>| [element(of, 0), element(of, 1), element(of, 2)];
-    [row(&left[0]), row(&left[1]), row(&left[2])]
-}
-
-#[inline(always)]
-fn scaled<T: Real>(vector: &Vector<T>, factor: T) -> Vector<T> {
-    [vector[0] * factor, vector[1] * factor, vector[2] * factor]
-}
-
-/// `factor a - b`
-#[inline(always)]
-fn scaled_difference<P: Triple>(
-    a: &Vector<P::Lane>,
-    factor: P::Lane,
-    b: &Vector<P::Lane>,
-) -> Vector<P::Lane> {
-    [P::mul_sub(a[0], factor, b[0]), P::mul_sub(a[1], factor, b[1]), P::mul_sub(a[2], factor, b[2])]
-}
-
-/// The determinant times the inverse, by cross products of the rows, and the determinant.
-#[inline(always)]
-fn adjugated<P: Triple>(rows: &Matrix<P::Lane>) -> (Matrix<P::Lane>, P::Lane) {
-    let [a, b, c] = rows;
-    let (bc, ca, ab) = (cross::<P>(b, c), cross::<P>(c, a), cross::<P>(a, b));
-    let row = |k: usize| [bc[k], ca[k], ab[k]];
-    ([row(0), row(1), row(2)], dot::<P>(a, &bc))
+fn adjugated<P: Triple>(rows: &[P; 3]) -> ([P; 3], P::Lane) {
+    let [a, b, c] = *rows;
+    let first = cross(b, c);
+    ([first, cross(c, a), cross(a, b)], sum(a * first))
 }
 
 #[cfg(test)]
@@ -216,11 +224,11 @@ mod tests {
             for (sixth, fifth) in rows[5].iter_mut().zip(fifth) {
                 *sixth = fifth + share * *sixth;
             }
-            let Some(blocks) = Blocks::of::<Portable<f64>>(&rows) else { continue };
+            let Some(blocks) = Blocks::<Portable<f64>>::of(&rows) else { continue };
             let condition = jacobian_reciprocal_condition(&rows);
             assert!(condition >= MIN_RECIPROCAL_CONDITION, "{condition:e} passed");
             let right = [1.0, -2.0, 3.0, 0.5, -1.5, 2.5];
-            near(&blocks.solve::<Portable<f64>>(&right), &solve_general(&rows, &right), 1e-12 / condition);
+            near(&blocks.twist(&right), &solve_general(&rows, &right), 1e-12 / condition);
             passed += 1;
         }
         assert!(passed > 5_000, "only {passed} passed");
@@ -235,15 +243,15 @@ mod tests {
             for (fifth, (first, third)) in rows[4].iter_mut().zip(first.iter().zip(third)).take(3) {
                 *fifth = first - third;
             }
-            assert!(Blocks::of::<Portable<f64>>(&rows).is_none());
+            assert!(Blocks::<Portable<f64>>::of(&rows).is_none());
             let condition = jacobian_reciprocal_condition(&rows);
             let right = [1.0, -2.0, 3.0, 0.5, -1.5, 2.5];
             if condition > 1e-3 {
                 near(&twist_of_rates(&rows, &right).unwrap(), &solve_general(&rows, &right), 1e-10);
             }
         }
-        assert!(Blocks::of::<Portable<f64>>(&[[f64::NAN; 6]; 6]).is_none());
-        assert!(Blocks::of::<Portable<f64>>(&[[0.0; 6]; 6]).is_none());
+        assert!(Blocks::<Portable<f64>>::of(&[[f64::NAN; 6]; 6]).is_none());
+        assert!(Blocks::<Portable<f64>>::of(&[[0.0; 6]; 6]).is_none());
     }
 
     #[test]
@@ -256,7 +264,7 @@ mod tests {
             relative.position_m.z += 0.382;
             let platform = PlatformState::at_rest(base.compose(&relative));
             let Ok(jacobian) = hexapod.jacobian_dp(&BaseMotion::at_rest(base), &platform) else { continue };
-            assert!(Blocks::of::<Portable<f64>>(&jacobian.transpose().into()).is_some());
+            assert!(Blocks::<Portable<f64>>::of(&jacobian.transpose().into()).is_some());
         }
     }
 }

@@ -110,14 +110,18 @@ impl<T: Real> Scaled<T> {
 /// `None` for a rotation.
 #[inline]
 pub(crate) fn rotation_defect<T: Real>(matrix: &Matrix3<T>) -> Option<NotARotation> {
-    if rotation_doubt(matrix) <= most_doubt() || is_rotation(matrix) { None } else { Some(described(matrix)) }
+    if rotation_doubt(&(*matrix).into()) <= most_doubt() || is_rotation(matrix) {
+        None
+    } else {
+        Some(described(matrix))
+    }
 }
 
-/// How far a matrix with columns x, y, z is from a right-handed rotation, as a sum of squares: of `x.x - 1`, `y.y - 1`, `x.y`
+/// How far a matrix with columns (or rows) x, y, z is from a right-handed rotation, as a sum of squares: of `x.x - 1`, `y.y - 1`, `x.y`
 /// and `z - x x y`. Up to [`most_doubt`] it is one for certain: `R^T R - 1` has no element beyond five times the root then.
 #[inline]
-pub(crate) fn rotation_doubt<T: Real>(matrix: &Matrix3<T>) -> T {
-    let [[a, b, c], [d, e, f], [g, h, i]]: [[T; 3]; 3] = (*matrix).into();
+pub(crate) fn rotation_doubt<T: Real>(columns: &[[T; 3]; 3]) -> T {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *columns;
     let one = T::one();
     let (xx, yy, xy) = (a * a + b * b + c * c - one, d * d + e * e + f * f - one, a * d + b * e + c * f);
     let (p, q, r) = (b * f - c * e - g, c * d - a * f - h, a * e - b * d - i);
@@ -188,8 +192,10 @@ pub(crate) fn in_reach<T: Real>(
     base_position: &[T; 3],
     platform_position: &[T; 3],
 ) -> Result<(), Error> {
+    let [a, b, c, d, e, f] = *rod_alignment;
     let stand = rod_alignment.iter().fold(true, |all, alignment| all & (*alignment >= T::MIN_ROD_ALIGNMENT));
-    if stand & rod_alignment.all_finite() {
+    // What is not a number is not greater either.
+    if stand & ((a + b + c) + (d + e + f)).is_finite() {
         return Ok(());
     }
     mechanism(rod_alignment, base_position, platform_position)?;
@@ -228,7 +234,7 @@ struct Judge<'a, T> {
 impl<T: Real> Call<T> for Judge<'_, T> {
     #[inline(always)]
     fn in_lanes<P: Triple<Lane = T>>(self) {
-        *self.certain = Blocks::of::<P>(self.jacobian_dp).is_some();
+        *self.certain = Blocks::<P>::of(self.jacobian_dp).is_some();
     }
 
     #[inline]
@@ -239,8 +245,8 @@ impl<T: Real> Call<T> for Judge<'_, T> {
 
 /// The twist with `J_dp twist = rates`, or why there is none.
 pub(crate) fn twist_of_rates<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
-    match Blocks::of::<Portable<T>>(jacobian_dp) {
-        Some(blocks) => Ok(blocks.solve::<Portable<T>>(rates)),
+    match Blocks::<Portable<T>>::of(jacobian_dp) {
+        Some(blocks) => Ok(blocks.twist(rates)),
         None => judged_with_care(jacobian_dp, rates),
     }
 }

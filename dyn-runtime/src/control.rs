@@ -12,7 +12,7 @@ use crate::arrays::{AllFinite, FromRows};
 use crate::check::{finite, finite_result, invertible};
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Twist, Wrench};
@@ -72,7 +72,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         let [mut lengths, mut velocities, mut total_bias, mut forces] = [[T::zero(); 6]; 4];
         let [mut jacobian_dp, mut mass_matrix_p] = [[[T::zero(); 6]; 6]; 2];
         self.model.control(
@@ -138,7 +139,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let reference_velocity = finite(Input::ReferenceVelocity, reference_velocity.to_array())?;
         let acceleration = finite(Input::PlatformAcceleration, reference_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.determinate_states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_determinate(&b, &p)?;
         evaluate!(self.model.passive_inverse_dynamics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, acceleration, reference_velocity,

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
@@ -28,7 +28,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::Energy<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.energy(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> Energy {

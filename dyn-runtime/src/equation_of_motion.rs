@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::error::Error;
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
@@ -60,7 +60,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::EquationOfMotion<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.equation_of_motion(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> EquationOfMotion {

@@ -6,7 +6,7 @@ use nalgebra::Vector6;
 use crate::check::finite;
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
@@ -66,7 +66,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.generalised_forces(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,
@@ -101,7 +102,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::PassiveForces<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.passive_forces(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> PassiveForces {
@@ -118,7 +120,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::Bias<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.bias(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> bias)

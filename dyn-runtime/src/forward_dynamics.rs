@@ -5,7 +5,7 @@ use nalgebra::Vector6;
 use crate::check::finite;
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
@@ -47,7 +47,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.forward_dynamics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity,

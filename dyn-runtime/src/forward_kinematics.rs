@@ -10,10 +10,9 @@
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
 use crate::arrays::{AllFinite, FromRows};
-use crate::blocks::difference;
 use crate::check;
 use crate::error::{Error, Input};
-use crate::hexapod::{Hexapod, checked_poses};
+use crate::hexapod::{Hexapod, StateArrays, arrays, check_poses};
 use crate::kernels;
 use crate::newton::{Found, Search};
 use crate::real::Real;
@@ -70,15 +69,16 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         M: kernels::ActuatorGeometry<T>,
     {
         let lengths = check::finite(Input::ActuatorLength, (*actuator_length_m).into())?;
-        let (on_base, from) = checked_poses(base, start)?;
+        let on_base = StateArrays::at(base);
+        check_poses(&on_base, &StateArrays::at(start))?;
         let mut found = Err(Error::NonFiniteResult);
         T::run(Search {
             model: &self.model,
             base_rotation: &on_base.rotation,
             lengths: &lengths,
             // Seen from the base's origin, in axes of O: a base far from O's origin costs no digits this way.
-            position: difference(&from.position, &on_base.position),
-            rotation: from.rotation,
+            position: (start.position_m - base.position_m).into(),
+            rotation: &start.rotation,
             found: &mut found,
         });
         let Found { position, rotation: [[a, b, c], [d, e, f], [g, h, i]], iterations, residual } = found?;
@@ -115,7 +115,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     {
         let rates: [T; 6] = check::finite(Input::ActuatorVelocity, (*actuator_velocity_m_s).into())?;
         let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
-        let (b, p) = self.poses(base, &PlatformState::at_rest(*platform))?;
+        let (b, p) = arrays(base, &PlatformState::at_rest(*platform));
+        self.check_poses(&b, &p)?;
         let mut jacobian_dp = [[T::zero(); 6]; 6];
         let mut jacobian_db = jacobian_dp;
         self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);

@@ -2,6 +2,8 @@
 
 use core::marker::PhantomData;
 
+use nalgebra::Matrix3;
+
 use crate::arrays::{AllFinite, rotation_rows};
 use crate::check;
 use crate::error::{Error, Input};
@@ -52,13 +54,10 @@ pub struct Hexapod<M, T = f64> {
     number: PhantomData<T>,
 }
 
-/// A body's pose as generated functions take it.
-pub(crate) struct PoseArrays<T> {
-    pub position: [T; 3],
-    pub rotation: [[T; 3]; 3],
-}
-
 /// A body's pose and velocity as generated functions take them.
+///
+/// Made once and judged where it lies: an array that is copied just before it is read into registers has to be waited for,
+/// which costs more than the judgement.
 pub(crate) struct StateArrays<T> {
     pub position: [T; 3],
     pub rotation: [[T; 3]; 3],
@@ -97,56 +96,40 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// `(u.a)^2` at these poses, whatever its value.
     pub(crate) fn alignment_at(
         &self,
-        base: &PoseArrays<T>,
-        platform: &PoseArrays<T>,
+        base: &StateArrays<T>,
+        platform: &StateArrays<T>,
     ) -> Result<[T; 6], Error> {
         let rod_alignment = unjudged_alignment(&self.model, base, platform);
         check::mechanism(&rod_alignment, &base.position, &platform.position)?;
         Ok(rod_alignment)
     }
 
-    /// Finite poses of base and platform, in reach of every leg.
+    /// Poses of base and platform are finite, and in reach of every leg.
     #[inline(always)]
-    pub(crate) fn poses(
-        &self,
-        base: &BaseMotion<T>,
-        platform: &PlatformState<T>,
-    ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
-        let (base, platform) = checked_poses(&base.pose, &platform.pose)?;
-        check::in_reach(
-            &unjudged_alignment(&self.model, &base, &platform),
-            &base.position,
-            &platform.position,
-        )?;
-        Ok((base, platform))
+    pub(crate) fn check_poses(&self, base: &StateArrays<T>, platform: &StateArrays<T>) -> Result<(), Error> {
+        check_poses_apart(base, platform)?;
+        check::in_reach(&unjudged_alignment(&self.model, base, platform), &base.position, &platform.position)
     }
 
-    /// Finite poses and velocities of base and platform, in reach of every leg.
+    /// Poses and velocities of base and platform are finite, and in reach of every leg.
     #[inline(always)]
-    pub(crate) fn states(
-        &self,
-        base: &BaseMotion<T>,
-        platform: &PlatformState<T>,
-    ) -> Result<(StateArrays<T>, StateArrays<T>), Error> {
-        let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
-        let platform_velocity = check::finite(Input::PlatformVelocity, platform.velocity.to_array())?;
-        let (base, platform) = self.poses(base, platform)?;
-        Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
+    pub(crate) fn check_states(&self, base: &StateArrays<T>, platform: &StateArrays<T>) -> Result<(), Error> {
+        check_velocities(base, platform)?;
+        self.check_poses(base, platform)
     }
 
-    /// [`states`](Self::states) in which J_dp can be inverted.
+    /// [`check_states`](Self::check_states), and J_dp can be inverted.
     #[inline(always)]
-    pub(crate) fn determinate_states(
+    pub(crate) fn check_determinate(
         &self,
-        base: &BaseMotion<T>,
-        platform: &PlatformState<T>,
-    ) -> Result<(StateArrays<T>, StateArrays<T>), Error>
+        base: &StateArrays<T>,
+        platform: &StateArrays<T>,
+    ) -> Result<(), Error>
     where
         M: ActuatorGeometry<T>,
     {
-        let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
-        let platform_velocity = check::finite(Input::PlatformVelocity, platform.velocity.to_array())?;
-        let (base, platform) = checked_poses(&base.pose, &platform.pose)?;
+        check_velocities(base, platform)?;
+        check_poses_apart(base, platform)?;
         let (mut rod_alignment, mut length) = ([T::zero(); 6], [T::zero(); 6]);
         let mut jacobian_dp = [[T::zero(); 6]; 6];
         self.model.actuator_geometry(
@@ -159,8 +142,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
             &mut jacobian_dp,
         );
         check::in_reach(&rod_alignment, &base.position, &platform.position)?;
-        check::invertible(&jacobian_dp)?;
-        Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
+        check::invertible(&jacobian_dp)
     }
 }
 
@@ -168,8 +150,8 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
 #[inline]
 pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     model: &M,
-    base: &PoseArrays<T>,
-    platform: &PoseArrays<T>,
+    base: &StateArrays<T>,
+    platform: &StateArrays<T>,
 ) -> [T; 6] {
     let mut rod_alignment = [T::zero(); 6];
     model.rod_alignment(
@@ -182,36 +164,50 @@ pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     rod_alignment
 }
 
-impl<T: Real> PoseArrays<T> {
+impl<T: Real> StateArrays<T> {
+    /// At rest.
     #[inline(always)]
-    pub fn of(pose: &Pose<T>) -> Self {
-        Self { position: pose.position_m.into(), rotation: rotation_rows(&pose.rotation) }
-    }
-
-    #[inline(always)]
-    fn moving(self, velocity: [T; 6]) -> StateArrays<T> {
-        StateArrays { position: self.position, rotation: self.rotation, velocity }
+    pub fn at(pose: &Pose<T>) -> Self {
+        Self {
+            position: pose.position_m.into(),
+            rotation: rotation_rows(&pose.rotation),
+            velocity: [T::zero(); 6],
+        }
     }
 }
 
-/// Finite poses of base and platform, with rotations that are rotations; reach is not looked at.
+/// Poses and velocities of base and platform. Nothing is looked at.
 #[inline(always)]
-pub(crate) fn checked_poses<T: Real>(
-    base: &Pose<T>,
-    platform: &Pose<T>,
-) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
-    check_poses(base, platform)?;
-    Ok((PoseArrays::of(base), PoseArrays::of(platform)))
+pub(crate) fn arrays<T: Real>(
+    base: &BaseMotion<T>,
+    platform: &PlatformState<T>,
+) -> (StateArrays<T>, StateArrays<T>) {
+    (
+        StateArrays { velocity: base.velocity.to_array(), ..StateArrays::at(&base.pose) },
+        StateArrays { velocity: platform.velocity.to_array(), ..StateArrays::at(&platform.pose) },
+    )
 }
 
-/// Judges without copying: arrays that are handed from call to call cost more than the judgement.
-fn check_poses<T: Real>(base: &Pose<T>, platform: &Pose<T>) -> Result<(), Error> {
+#[inline(always)]
+fn check_velocities<T: Real>(base: &StateArrays<T>, platform: &StateArrays<T>) -> Result<(), Error> {
+    check::finite(Input::BaseVelocity, base.velocity)?;
+    check::finite(Input::PlatformVelocity, platform.velocity)?;
+    Ok(())
+}
+
+/// [`check_poses`] as a call: among the checks of a whole state it is faster apart.
+#[inline(never)]
+fn check_poses_apart<T: Real>(base: &StateArrays<T>, platform: &StateArrays<T>) -> Result<(), Error> {
+    check_poses(base, platform)
+}
+
+/// Poses are finite and rotations are rotations; reach is not looked at.
+#[inline(always)]
+pub(crate) fn check_poses<T: Real>(base: &StateArrays<T>, platform: &StateArrays<T>) -> Result<(), Error> {
     // Both at once: one branch is faster than four. What is not finite is no number here, and no comparison holds for it.
-    let [[p, q, r]]: [[T; 3]; 1] = base.position_m.into();
-    let [[s, t, u]]: [[T; 3]; 1] = platform.position_m.into();
-    let doubt = check::rotation_doubt(base.rotation.matrix())
-        + check::rotation_doubt(platform.rotation.matrix())
-        + [p, q, r, s, t, u].vanishing();
+    let doubt = check::rotation_doubt(&base.rotation)
+        + check::rotation_doubt(&platform.rotation)
+        + (base.position.vanishing() + platform.position.vanishing());
     if doubt <= check::most_doubt() {
         return Ok(());
     }
@@ -221,13 +217,12 @@ fn check_poses<T: Real>(base: &Pose<T>, platform: &Pose<T>) -> Result<(), Error>
 
 /// What is wrong with a pose, if anything is.
 #[cold]
-fn examine<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<(), Error> {
-    let arrays = PoseArrays::of(pose);
-    check::finite(position, arrays.position)?;
-    match check::rotation_defect(pose.rotation.matrix()) {
+fn examine<T: Real>(pose: &StateArrays<T>, position: Input, rotation: Input) -> Result<(), Error> {
+    check::finite(position, pose.position)?;
+    match check::rotation_defect(&Matrix3::from(pose.rotation).transpose()) {
         None => Ok(()),
         Some(defect) => {
-            check::finite(rotation, arrays.rotation)?;
+            check::finite(rotation, pose.rotation)?;
             Err(Error::NotARotation { input: rotation, defect })
         }
     }

@@ -6,7 +6,7 @@ use crate::arrays::AllFinite;
 use crate::check::{finite, finite_result};
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
-use crate::hexapod::{Hexapod, checked_poses};
+use crate::hexapod::{Hexapod, arrays, check_poses};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState};
@@ -85,7 +85,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &BaseMotion<T>,
         platform: &PlatformState<T>,
     ) -> Result<Vector6<T>, Error> {
-        let (b, p) = checked_poses(&base.pose, &platform.pose)?;
+        let (b, p) = arrays(base, platform);
+        check_poses(&b, &p)?;
         let rod_alignment = self.alignment_at(&b, &p)?;
         finite_result(rod_alignment.all_finite())?;
         Ok(rod_alignment.into())
@@ -124,7 +125,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.leg_kinematics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,
@@ -150,7 +152,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.body_kinematics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,
@@ -175,7 +178,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::uhp::PartialVelocities<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.partial_velocities(
             b.position, b.rotation, p.position, p.rotation
         ) -> PartialVelocities {

@@ -7,7 +7,7 @@ use nalgebra::Matrix6;
 
 use crate::error::Error;
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
@@ -59,7 +59,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::JacobianDp<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.jacobian_dp(b.position, b.rotation, p.position, p.rotation) -> jacobian_dp)
     }
 
@@ -72,7 +73,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::JacobianDb<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.jacobian_db(b.position, b.rotation, p.position, p.rotation) -> jacobian_db)
     }
 
@@ -101,7 +103,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::MassMatrixP<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.mass_matrix_p(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_p)
     }
 
@@ -118,7 +121,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::MassMatrixB<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.mass_matrix_b(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_b)
     }
 
@@ -134,7 +138,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::CoriolisMatrices<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.coriolis_matrices(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> CoriolisMatrices {
@@ -154,7 +159,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::StiffnessMatrices<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.stiffness_matrices(
             b.position, b.rotation, p.position, p.rotation
         ) -> StiffnessMatrices {
@@ -170,7 +176,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::Matrices<T>,
     {
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.matrices(
             b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
         ) -> Matrices {

@@ -6,7 +6,7 @@ use crate::arrays::AllFinite;
 use crate::check::{self, finite, finite_result};
 use crate::error::{Error, Input};
 use crate::float::{atan2, sqrt};
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
@@ -152,7 +152,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         M: kernels::LegKinematics<T> + kernels::JacobianDp<T>,
     {
         let forces: [T; 6] = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         let [mut lengths, mut velocities, mut accelerations] = [[T::zero(); 6]; 3];
         let [mut directions, mut hooke_joints, mut platform_joints, mut rates] = [[[T::zero(); 3]; 6]; 4];
         let mut jacobian_dp = [[T::zero(); 6]; 6];

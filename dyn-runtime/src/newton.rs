@@ -1,10 +1,12 @@
 //! The search of forward kinematics: Newton's method in plain arrays, compiled like functions in lanes for the processor's
 //! registers.
 
-use crate::blocks::{Blocks, dot, product};
+use nalgebra::Rotation3;
+
+use crate::blocks::{Blocks, combined, components, sum};
 use crate::check;
 use crate::error::Error;
-use crate::float::{Scalar, sqrt};
+use crate::float::{Scalar, mul_add, neg_mul_add, sqrt};
 use crate::kernels;
 use crate::real::Real;
 use crate::triple::{Call, Portable, Triple};
@@ -27,10 +29,10 @@ pub(crate) struct Search<'a, M, T> {
     pub base_rotation: &'a Rows<T>,
     /// Wanted, m.
     pub lengths: &'a [T; 6],
-    /// Of the platform, m, at the start.
+    /// The platform's position at the start, m.
     pub position: [T; 3],
-    /// P to O, at the start.
-    pub rotation: Rows<T>,
+    /// P to O at the start.
+    pub rotation: &'a Rotation3<T>,
     /// The result.
     pub found: &'a mut Result<Found<T>, Error>,
 }
@@ -56,17 +58,26 @@ struct Actuators<T> {
     residual: T,
 }
 
+/// A pose of the platform.
+#[derive(Clone, Copy)]
+struct Place<P> {
+    /// m.
+    position: P,
+    /// P to O, row by row.
+    rotation: [P; 3],
+}
+
 /// What the last step leaves to the next.
-struct LastStep<T> {
+struct LastStep<P: Triple> {
     /// The Jacobian that it was made with, where it is one for blocks.
-    blocks: Option<Blocks<T>>,
+    blocks: Option<Blocks<P>>,
     /// Largest missing length before it, m; 0 before the first step.
-    residual: T,
+    residual: P::Lane,
 }
 
 impl<M: kernels::ActuatorGeometry<T>, T: Real> Call<T> for Search<'_, M, T> {
     #[inline(always)]
-    fn in_lanes<P: Triple<Lane = T>>(mut self) {
+    fn in_lanes<P: Triple<Lane = T>>(self) {
         *self.found = self.search::<P>();
     }
 
@@ -78,58 +89,66 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Call<T> for Search<'_, M, T> {
 
 impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
     #[inline(always)]
-    fn search<P: Triple<Lane = T>>(&mut self) -> Result<Found<T>, Error> {
+    fn search<P: Triple<Lane = T>>(&self) -> Result<Found<T>, Error> {
         let zero = T::zero();
+        let r = self.rotation.matrix();
+        let start = [
+            P::triple([r.m11, r.m12, r.m13]),
+            P::triple([r.m21, r.m22, r.m23]),
+            P::triple([r.m31, r.m32, r.m33]),
+        ];
         // Before any length is looked at, so that the residual is that of the pose which is returned.
-        self.rotation = orthonormalised::<P>(&self.rotation);
+        let rotation = orthonormalised(start);
+        let mut place = Place { position: P::triple(self.position), rotation };
         let mut actuators = Actuators { jacobian_dp: [[zero; 6]; 6], missing: [zero; 6], residual: zero };
-        self.actuators(&mut actuators)?;
+        self.actuators(&place, &mut actuators)?;
         let mut last = LastStep { blocks: None, residual: zero };
         let mut iterations = 0;
         while actuators.residual > T::LENGTH_RESIDUAL_M {
             if iterations == MAX_ITERATIONS {
                 return Err(no_convergence(iterations, actuators.residual));
             }
-            self.step::<P>(&mut actuators, &mut last, iterations)?;
+            place = self.step(&place, &mut actuators, &mut last, iterations)?;
             iterations += 1;
         }
-        let (position, rotation) = (self.position, self.rotation);
+        let (position, rotation) = (components(place.position), rows(&place.rotation));
         Ok(Found { position, rotation, iterations, residual: actuators.residual })
     }
 
-    /// One Newton step, halved until it leads to a better pose, with the actuators there.
+    /// Where one Newton step leads, halved until it leads to a better pose, with the actuators there.
     #[inline(always)]
     fn step<P: Triple<Lane = T>>(
-        &mut self,
+        &self,
+        from: &Place<P>,
         actuators: &mut Actuators<T>,
-        last: &mut LastStep<T>,
+        last: &mut LastStep<P>,
         iterations: u32,
-    ) -> Result<(), Error> {
-        let (position, rotation, residual) = (self.position, self.rotation, actuators.residual);
+    ) -> Result<Place<P>, Error> {
+        let residual = actuators.residual;
         // A step from r_0 to r_1 was wrong by r_1 = c r_0^2; with the same Jacobian the next is by 2 c r_0 r_1.
         let is_last = T::constant(4.0) * residual * residual < T::LENGTH_RESIDUAL_M * last.residual;
         if !is_last {
-            last.blocks = Blocks::of::<P>(&actuators.jacobian_dp);
+            last.blocks = Blocks::of(&actuators.jacobian_dp);
         }
         last.residual = residual;
-        let [x, y, z, wx, wy, wz] = match &last.blocks {
-            Some(blocks) => blocks.solve::<P>(&actuators.missing),
-            None => check::judged_with_care(&actuators.jacobian_dp, &actuators.missing)?,
+        let (shift, turn) = match &last.blocks {
+            Some(blocks) => blocks.solve(&actuators.missing),
+            None => {
+                let [x, y, z, wx, wy, wz] =
+                    check::judged_with_care(&actuators.jacobian_dp, &actuators.missing)?;
+                (P::triple([x, y, z]), P::triple([wx, wy, wz]))
+            }
         };
-        let turn = [wx, wy, wz];
-        let turn_squared = dot::<P>(&turn, &turn);
+        let turn_squared = sum(turn * turn);
         let most = T::constant(MAX_TURN_RAD);
         let mut share = if turn_squared > most * most { most / sqrt(turn_squared) } else { T::one() };
         let mut refusal = None;
         for _ in 0..=MAX_HALVINGS {
-            self.position = [
-                P::mul_add(x, share, position[0]),
-                P::mul_add(y, share, position[1]),
-                P::mul_add(z, share, position[2]),
-            ];
-            self.rotation = turned_by::<P>(&[wx * share, wy * share, wz * share], &rotation);
-            match self.actuators(actuators) {
-                Ok(()) if actuators.residual < residual => return Ok(()),
+            let part = P::splat(share);
+            let position = mul_add(shift, part, from.position);
+            let place = Place { position, rotation: turned_by(turn * part, &from.rotation) };
+            match self.actuators(&place, actuators) {
+                Ok(()) if actuators.residual < residual => return Ok(place),
                 Ok(()) => refusal = None,
                 Err(reason) => refusal = Some(reason),
             }
@@ -138,21 +157,25 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
         Err(refusal.unwrap_or(no_convergence(iterations, residual)))
     }
 
-    /// The actuators at the present pose.
+    /// The actuators at a pose.
     #[inline(always)]
-    fn actuators(&self, actuators: &mut Actuators<T>) -> Result<(), Error> {
-        let origin = [T::zero(); 3];
+    fn actuators<P: Triple<Lane = T>>(
+        &self,
+        place: &Place<P>,
+        actuators: &mut Actuators<T>,
+    ) -> Result<(), Error> {
+        let (origin, position) = ([T::zero(); 3], components(place.position));
         let mut rod_alignment = [T::zero(); 6];
         self.model.actuator_geometry(
             &origin,
             self.base_rotation,
-            &self.position,
-            &self.rotation,
+            &position,
+            &rows(&place.rotation),
             &mut rod_alignment,
             &mut actuators.missing,
             &mut actuators.jacobian_dp,
         );
-        check::in_reach(&rod_alignment, &origin, &self.position)?;
+        check::in_reach(&rod_alignment, &origin, &position)?;
         let (mut largest, mut sum) = (T::zero(), T::zero());
         for (length, wanted) in actuators.missing.iter_mut().zip(self.lengths) {
             *length = *wanted - *length;
@@ -172,40 +195,36 @@ fn no_convergence<T: Real>(iterations: u32, residual: T) -> Error {
     Error::NoConvergence { iterations, residual_m: residual.to_f64() }
 }
 
+#[inline(always)]
+fn rows<P: Triple>(matrix: &[P; 3]) -> Rows<P::Lane> {
+    [components(matrix[0]), components(matrix[1]), components(matrix[2])]
+}
+
 /// `rows`, turned by an angle (rad) about an axis through the origin: the Cayley transform, a rotation that agrees with the
 /// exponential to third order, exactly orthonormal, without trigonometry.
 #[inline(always)]
-fn turned_by<P: Triple>(angle: &[P::Lane; 3], rows: &Rows<P::Lane>) -> Rows<P::Lane> {
-    let half = P::Lane::constant(0.5);
-    let [x, y, z] = [angle[0] * half, angle[1] * half, angle[2] * half];
+fn turned_by<P: Triple>(angle: P, rows: &[P; 3]) -> [P; 3] {
+    let [x, y, z] = components(angle * P::constant(0.5));
     let (xx, yy, zz) = (x * x, y * y, z * z);
     // R + s (S + S^2) R with S = [x y z]x; the division has its time while the product is made.
-    let s = P::Lane::constant(2.0) / (P::Lane::constant(1.0) + xx + yy + zz);
-    let by = product::<P>(
-        &[
-            [-(yy + zz), P::mul_sub(x, y, z), P::mul_add(x, z, y)],
-            [P::mul_add(x, y, z), -(xx + zz), P::mul_sub(y, z, x)],
-            [P::mul_sub(x, z, y), P::mul_add(y, z, x), -(xx + yy)],
-        ],
-        rows,
-    );
-    let row = |k: usize| {
-        let ([a, b, c], [x, y, z]) = (rows[k], by[k]);
-        [P::mul_add(s, x, a), P::mul_add(s, y, b), P::mul_add(s, z, c)]
-    };
-    [row(0), row(1), row(2)]
+    let s = P::splat(P::Lane::constant(2.0) / (P::Lane::constant(1.0) + xx + yy + zz));
+    let first = combined([-(yy + zz), P::mul_sub(x, y, z), P::mul_add(x, z, y)], rows);
+    let second = combined([P::mul_add(x, y, z), -(xx + zz), P::mul_sub(y, z, x)], rows);
+    let third = combined([P::mul_sub(x, z, y), P::mul_add(y, z, x), -(xx + yy)], rows);
+    [mul_add(s, first, rows[0]), mul_add(s, second, rows[1]), mul_add(s, third, rows[2])]
 }
 
 /// One step of Newton's method towards the nearest rotation: takes out what rounding of earlier calls, and a start that was
 /// rounded itself, have put in, so that poses may be passed on from call to call for ever.
 #[inline(always)]
-fn orthonormalised<P: Triple>(rows: &Rows<P::Lane>) -> Rows<P::Lane> {
-    let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
-    let (x, y, z) = ([a, d, g], [b, e, h], [c, f, i]);
-    let (half, most) = (P::Lane::constant(0.5), P::Lane::constant(1.5));
-    // 3/2 - R^T R/2, symmetric
-    let on = |column: &[P::Lane; 3]| P::neg_mul_add(half, dot::<P>(column, column), most);
-    let off = |one: &[P::Lane; 3], other: &[P::Lane; 3]| -half * dot::<P>(one, other);
-    let (xy, yz, zx) = (off(&x, &y), off(&y, &z), off(&z, &x));
-    product::<P>(rows, &[[on(&x), xy, zx], [xy, on(&y), yz], [zx, yz, on(&z)]])
+fn orthonormalised<P: Triple>(rows: [P; 3]) -> [P; 3] {
+    let ([a, b, c], [d, e, f], [g, h, i]) = (components(rows[0]), components(rows[1]), components(rows[2]));
+    let (zero, most, half) = (P::Lane::constant(0.0), P::Lane::constant(1.5), P::constant(0.5));
+    // 3/2 - R^T R/2
+    let by = [
+        neg_mul_add(half, combined([a, d, g], &rows), P::triple([most, zero, zero])),
+        neg_mul_add(half, combined([b, e, h], &rows), P::triple([zero, most, zero])),
+        neg_mul_add(half, combined([c, f, i], &rows), P::triple([zero, zero, most])),
+    ];
+    [combined([a, b, c], &by), combined([d, e, f], &by), combined([g, h, i], &by)]
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3x6, Vector3, Vector6};
 use crate::check::finite;
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
-use crate::hexapod::Hexapod;
+use crate::hexapod::{Hexapod, arrays};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
@@ -91,7 +91,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.body_kinematics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,
@@ -116,7 +117,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::ups::PartialVelocities<T>,
     {
-        let (b, p) = self.poses(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_poses(&b, &p)?;
         evaluate!(self.model.partial_velocities(
             b.position, b.rotation, p.position, p.rotation
         ) -> PartialVelocities {
@@ -146,7 +148,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
+        let (b, p) = arrays(base, platform);
+        self.check_states(&b, &p)?;
         evaluate!(self.model.generalised_forces(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,

@@ -1,16 +1,14 @@
 //! The states of a batch in lanes, and what is wrong with one.
 
-use nalgebra::{Matrix3, Rotation3};
-
 use super::{Column, LengthError, Status};
 use crate::arrays::rotation_rows;
 use crate::check;
 use crate::error::{Error, Input};
-use crate::hexapod::{PoseArrays, checked_poses, unjudged_alignment};
+use crate::hexapod::{StateArrays, check_poses, unjudged_alignment};
 use crate::kernels::{JacobianDp, RodAlignment, generic};
 use crate::lanes::{InLanes, Lanes, Number};
 use crate::real::Real;
-use crate::state::{BaseMotion, Pose};
+use crate::state::BaseMotion;
 
 use super::column::all_lanes;
 
@@ -150,14 +148,16 @@ impl<S: Number> States<'_, S> {
         check::invertible(&jacobian)
     }
 
-    fn poses(&self, state: usize) -> Result<(PoseArrays<S>, PoseArrays<S>), Error> {
-        let pose = |position: &Column<S, 3>, rotation: &Column<S, 9>| Pose {
-            position_m: position.at(state).into(),
-            rotation: Rotation3::from_matrix_unchecked(Matrix3::from(rows(rotation.at(state))).transpose()),
+    fn poses(&self, state: usize) -> Result<(StateArrays<S>, StateArrays<S>), Error> {
+        let at_rest = |position: &Column<S, 3>, rotation: &Column<S, 9>| StateArrays {
+            position: position.at(state),
+            rotation: rows(rotation.at(state)),
+            velocity: [S::zero(); 6],
         };
-        let base = pose(&self.base.position, &self.base.rotation);
-        let platform = pose(&self.platform.position, &self.platform.rotation);
-        checked_poses(&base, &platform)
+        let base = at_rest(&self.base.position, &self.base.rotation);
+        let platform = at_rest(&self.platform.position, &self.platform.rotation);
+        check_poses(&base, &platform)?;
+        Ok((base, platform))
     }
 }
 
