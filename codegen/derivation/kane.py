@@ -94,13 +94,8 @@ def bilinear_accelerations(leg: Leg, axis, axis_rate, gradient, gradient_rate, s
 
 def joint_inertia(leg: Leg, axis, gradient):
     """N = sum m_kl D_k^T D_l: mass matrix of the leg in the speeds of its joint, 3 x 3."""
-    both = leg.total(lambda k, l: k.along * l.along)
-    mixed = leg.total(lambda k, l: k.across * l.along)
-    if axis is gradient:
-        return symmetric(outer((both + 2 * mixed) * axis, axis) + joint_mass(leg) * ca.SX.eye(3))
-    half = (both / 2) * gradient + mixed * axis
-    square = outer(gradient, half) + outer(half, gradient) + joint_mass(leg) * ca.SX.eye(3)
-    return symmetric(square)
+    squares = (outer(weight * row, row) for weight, row in joint_inertia_squares(leg, axis, gradient))
+    return symmetric(sum(squares, joint_mass(leg) * ca.SX.eye(3)))
 
 
 def joint_inertia_squares(leg: Leg, axis, gradient):

@@ -112,7 +112,12 @@ pub fn regroup(
     }
     let outputs = images.outputs(graph);
     let groups = mapped(groups, |node| images.get(node));
-    let mut groups: Vec<Group> = groups.into_iter().flat_map(|group| with_parts(group, &of_legs)).collect();
+    let part = |id: NodeId| match builder.node(id) {
+        // An element that is the sum with its sign changed.
+        Node::Unary(Op::Neg, sum) => of_legs.get(&sum).copied(),
+        _ => of_legs.get(&id).copied(),
+    };
+    let mut groups: Vec<Group> = groups.into_iter().flat_map(|group| with_parts(group, part)).collect();
     for lanes in added {
         let later = |group: &Group| group.nodes().iter().max() > lanes.iter().max();
         let place = groups.iter().position(later).unwrap_or(groups.len());
@@ -122,9 +127,9 @@ pub fn regroup(
 }
 
 /// The group, behind what the legs alone contribute to its elements: elements may differ in what is added to that.
-fn with_parts(group: Group, of_legs: &HashMap<NodeId, NodeId>) -> Vec<Group> {
+fn with_parts(group: Group, part: impl Fn(NodeId) -> Option<NodeId>) -> Vec<Group> {
     let Group::Array { shape, nodes } = &group else { return vec![group] };
-    let parts: Option<Vec<NodeId>> = nodes.iter().map(|id| of_legs.get(id).copied()).collect();
+    let parts: Option<Vec<NodeId>> = nodes.iter().map(|id| part(*id)).collect();
     match parts {
         Some(parts) => vec![Group::Array { shape: shape.clone(), nodes: parts }, group],
         None => vec![group],
@@ -166,7 +171,9 @@ fn by_leg(terms: &[Term], owners: &[Owner], legs: usize) -> Option<SumOverLegs> 
             _ => common.push((id, negative)),
         }
     }
-    let of_leg: Vec<Vec<Term>> = of_leg.into_values().collect();
+    let mut of_leg: Vec<Vec<Term>> = of_leg.into_values().collect();
+    // Elements of an array are alike only if their terms have their signs in the same order.
+    of_leg.iter_mut().for_each(|terms| terms.sort_by_key(|(_, negative)| *negative));
     let signs = |leg: &Vec<Term>| leg.iter().map(|(_, negative)| *negative).collect::<Vec<_>>();
     let alike = of_leg.len() == legs && of_leg.iter().all(|leg| signs(leg) == signs(&of_leg[0]));
     alike.then_some(SumOverLegs { common, of_leg })

@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
-// graph     ups.json, sha256 72397907c073aed1bf3e63df770aeecbe6a57ee55c0db96a4203977ba946cca3
+// graph     uhp.json, sha256 0399b6f8b8367dab7d7d20b36d70f33c0006136fb5624574d2be953de4e83b7b
+// graph     ups.json, sha256 c794f3a0f2c038ff2ec18c6fcad2be73ef70cae601788dd4b6b6a7493ee4ae9b
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
+// graph     uhp.json, sha256 0399b6f8b8367dab7d7d20b36d70f33c0006136fb5624574d2be953de4e83b7b
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -15,7 +15,7 @@
 // generalised_forces              3531        2237
 // jacobian_dp                      579         363
 // jacobian_db                      597         381
-// mass_matrix_p                   1475        1006
+// mass_matrix_p                   1523        1042
 // mass_matrix_b                   2718        1698
 // coriolis_matrices               5047        3122
 // stiffness_matrices              1266         777
@@ -25,7 +25,7 @@
 // equation_of_motion              7338        4575
 // inverse_dynamics                2160        1375
 // actuator_geometry                591         381
-// control                         3146        2046
+// control                         3194        2082
 // passive_inverse_dynamics        2808        1783
 // base_reaction                   2412        1543
 // forward_dynamics                3003        1934
@@ -9425,334 +9425,349 @@ pub fn mass_matrix_p<T: Scalar>(
     let t411 = neg_mul_add(t302, t403, neg_mul_add(t295, t404, t410));
     let t412 = neg_mul_add(t316, t401, neg_mul_add(t309, t402, t411));
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t413 = t283 * c(0.5);
-    let t414 = base_rotation[0][1] * parameters.actuator_axis[0][1];
-    let t415 = mul_add(base_rotation[0][0], parameters.actuator_axis[0][0], t414);
-    let t416 = mul_add(base_rotation[0][2], parameters.actuator_axis[0][2], t415);
-    let t417 = mul_sub(t242, t413, t282 * t416);
-    let t418 = t242 * t417;
-    let t419 = c(2.0) * t418;
-    let t420 = base_rotation[1][1] * parameters.actuator_axis[0][1];
-    let t421 = mul_add(base_rotation[1][0], parameters.actuator_axis[0][0], t420);
-    let t422 = mul_add(base_rotation[1][2], parameters.actuator_axis[0][2], t421);
-    let t423 = mul_sub(t244, t413, t282 * t422);
-    let t424 = mul_add(t242, t423, t244 * t417);
-    let t425 = base_rotation[2][1] * parameters.actuator_axis[0][1];
-    let t426 = mul_add(base_rotation[2][0], parameters.actuator_axis[0][0], t425);
-    let t427 = mul_add(base_rotation[2][2], parameters.actuator_axis[0][2], t426);
-    let t428 = mul_sub(t246, t413, t282 * t427);
-    let t429 = mul_add(t242, t428, t246 * t417);
-    let t430 = t244 * t423;
-    let t431 = c(2.0) * t430;
-    let t432 = mul_add(t244, t428, t246 * t423);
-    let t433 = t246 * t428;
-    let t434 = c(2.0) * t433;
+    let t413 = c(1.0) / t283;
+    let t414 = t282 * t413;
+    let t415 = base_rotation[0][1] * parameters.actuator_axis[0][1];
+    let t416 = mul_add(base_rotation[0][0], parameters.actuator_axis[0][0], t415);
+    let t417 = mul_add(base_rotation[0][2], parameters.actuator_axis[0][2], t416);
+    let t418 = neg_mul_add(t414, t417, t242);
+    let t419 = t283 * t418;
+    let t420 = t413 * (t282 * t282);
+    let t421 = t417 * t420;
+    let t422 = mul_sub(t418, t419, t417 * t421);
+    let t423 = base_rotation[1][1] * parameters.actuator_axis[0][1];
+    let t424 = mul_add(base_rotation[1][0], parameters.actuator_axis[0][0], t423);
+    let t425 = mul_add(base_rotation[1][2], parameters.actuator_axis[0][2], t424);
+    let t426 = neg_mul_add(t414, t425, t244);
+    let t427 = mul_sub(t419, t426, t421 * t425);
+    let t428 = base_rotation[2][1] * parameters.actuator_axis[0][1];
+    let t429 = mul_add(base_rotation[2][0], parameters.actuator_axis[0][0], t428);
+    let t430 = mul_add(base_rotation[2][2], parameters.actuator_axis[0][2], t429);
+    let t431 = neg_mul_add(t414, t430, t246);
+    let t432 = mul_sub(t419, t431, t421 * t430);
+    let t433 = t283 * t426;
+    let t434 = t420 * t425;
+    let t435 = mul_sub(t426, t433, t425 * t434);
+    let t436 = mul_sub(t431, t433, t430 * t434);
+    let t437 = mul_sub(t431, t283 * t431, t430 * (t420 * t430));
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t435 = t290 * c(0.5);
-    let t436 = base_rotation[0][1] * parameters.actuator_axis[1][1];
-    let t437 = mul_add(base_rotation[0][0], parameters.actuator_axis[1][0], t436);
-    let t438 = mul_add(base_rotation[0][2], parameters.actuator_axis[1][2], t437);
-    let t439 = mul_sub(t248, t435, t289 * t438);
-    let t440 = c(2.0) * (t248 * t439);
-    let t441 = base_rotation[1][1] * parameters.actuator_axis[1][1];
-    let t442 = mul_add(base_rotation[1][0], parameters.actuator_axis[1][0], t441);
-    let t443 = mul_add(base_rotation[1][2], parameters.actuator_axis[1][2], t442);
-    let t444 = mul_sub(t250, t435, t289 * t443);
-    let t445 = mul_add(t248, t444, t250 * t439);
-    let t446 = base_rotation[2][1] * parameters.actuator_axis[1][1];
-    let t447 = mul_add(base_rotation[2][0], parameters.actuator_axis[1][0], t446);
-    let t448 = mul_add(base_rotation[2][2], parameters.actuator_axis[1][2], t447);
-    let t449 = mul_sub(t252, t435, t289 * t448);
-    let t450 = mul_add(t248, t449, t252 * t439);
-    let t451 = c(2.0) * (t250 * t444);
-    let t452 = mul_add(t250, t449, t252 * t444);
-    let t453 = c(2.0) * (t252 * t449);
+    let t438 = c(1.0) / t290;
+    let t439 = t289 * t438;
+    let t440 = base_rotation[0][1] * parameters.actuator_axis[1][1];
+    let t441 = mul_add(base_rotation[0][0], parameters.actuator_axis[1][0], t440);
+    let t442 = mul_add(base_rotation[0][2], parameters.actuator_axis[1][2], t441);
+    let t443 = neg_mul_add(t439, t442, t248);
+    let t444 = t290 * t443;
+    let t445 = t438 * (t289 * t289);
+    let t446 = t442 * t445;
+    let t447 = mul_sub(t443, t444, t442 * t446);
+    let t448 = base_rotation[1][1] * parameters.actuator_axis[1][1];
+    let t449 = mul_add(base_rotation[1][0], parameters.actuator_axis[1][0], t448);
+    let t450 = mul_add(base_rotation[1][2], parameters.actuator_axis[1][2], t449);
+    let t451 = neg_mul_add(t439, t450, t250);
+    let t452 = mul_sub(t444, t451, t446 * t450);
+    let t453 = base_rotation[2][1] * parameters.actuator_axis[1][1];
+    let t454 = mul_add(base_rotation[2][0], parameters.actuator_axis[1][0], t453);
+    let t455 = mul_add(base_rotation[2][2], parameters.actuator_axis[1][2], t454);
+    let t456 = neg_mul_add(t439, t455, t252);
+    let t457 = mul_sub(t444, t456, t446 * t455);
+    let t458 = t290 * t451;
+    let t459 = t445 * t450;
+    let t460 = mul_sub(t451, t458, t450 * t459);
+    let t461 = mul_sub(t456, t458, t455 * t459);
+    let t462 = mul_sub(t456, t290 * t456, t455 * (t445 * t455));
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t454 = t297 * c(0.5);
-    let t455 = base_rotation[0][1] * parameters.actuator_axis[2][1];
-    let t456 = mul_add(base_rotation[0][0], parameters.actuator_axis[2][0], t455);
-    let t457 = mul_add(base_rotation[0][2], parameters.actuator_axis[2][2], t456);
-    let t458 = mul_sub(t254, t454, t296 * t457);
-    let t459 = t254 * t458;
-    let t460 = c(2.0) * t459;
-    let t461 = base_rotation[1][1] * parameters.actuator_axis[2][1];
-    let t462 = mul_add(base_rotation[1][0], parameters.actuator_axis[2][0], t461);
-    let t463 = mul_add(base_rotation[1][2], parameters.actuator_axis[2][2], t462);
-    let t464 = mul_sub(t256, t454, t296 * t463);
-    let t465 = mul_add(t254, t464, t256 * t458);
-    let t466 = base_rotation[2][1] * parameters.actuator_axis[2][1];
-    let t467 = mul_add(base_rotation[2][0], parameters.actuator_axis[2][0], t466);
-    let t468 = mul_add(base_rotation[2][2], parameters.actuator_axis[2][2], t467);
-    let t469 = mul_sub(t258, t454, t296 * t468);
-    let t470 = mul_add(t254, t469, t258 * t458);
-    let t471 = t256 * t464;
-    let t472 = c(2.0) * t471;
-    let t473 = mul_add(t256, t469, t258 * t464);
-    let t474 = t258 * t469;
-    let t475 = c(2.0) * t474;
+    let t463 = c(1.0) / t297;
+    let t464 = t296 * t463;
+    let t465 = base_rotation[0][1] * parameters.actuator_axis[2][1];
+    let t466 = mul_add(base_rotation[0][0], parameters.actuator_axis[2][0], t465);
+    let t467 = mul_add(base_rotation[0][2], parameters.actuator_axis[2][2], t466);
+    let t468 = neg_mul_add(t464, t467, t254);
+    let t469 = t297 * t468;
+    let t470 = t463 * (t296 * t296);
+    let t471 = t467 * t470;
+    let t472 = mul_sub(t468, t469, t467 * t471);
+    let t473 = base_rotation[1][1] * parameters.actuator_axis[2][1];
+    let t474 = mul_add(base_rotation[1][0], parameters.actuator_axis[2][0], t473);
+    let t475 = mul_add(base_rotation[1][2], parameters.actuator_axis[2][2], t474);
+    let t476 = neg_mul_add(t464, t475, t256);
+    let t477 = mul_sub(t469, t476, t471 * t475);
+    let t478 = base_rotation[2][1] * parameters.actuator_axis[2][1];
+    let t479 = mul_add(base_rotation[2][0], parameters.actuator_axis[2][0], t478);
+    let t480 = mul_add(base_rotation[2][2], parameters.actuator_axis[2][2], t479);
+    let t481 = neg_mul_add(t464, t480, t258);
+    let t482 = mul_sub(t469, t481, t471 * t480);
+    let t483 = t297 * t476;
+    let t484 = t470 * t475;
+    let t485 = mul_sub(t476, t483, t475 * t484);
+    let t486 = mul_sub(t481, t483, t480 * t484);
+    let t487 = mul_sub(t481, t297 * t481, t480 * (t470 * t480));
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t476 = t304 * c(0.5);
-    let t477 = base_rotation[0][1] * parameters.actuator_axis[3][1];
-    let t478 = mul_add(base_rotation[0][0], parameters.actuator_axis[3][0], t477);
-    let t479 = mul_add(base_rotation[0][2], parameters.actuator_axis[3][2], t478);
-    let t480 = mul_sub(t260, t476, t303 * t479);
-    let t481 = t260 * t480;
-    let t482 = c(2.0) * t481;
-    let t483 = base_rotation[1][1] * parameters.actuator_axis[3][1];
-    let t484 = mul_add(base_rotation[1][0], parameters.actuator_axis[3][0], t483);
-    let t485 = mul_add(base_rotation[1][2], parameters.actuator_axis[3][2], t484);
-    let t486 = mul_sub(t262, t476, t303 * t485);
-    let t487 = mul_add(t260, t486, t262 * t480);
-    let t488 = base_rotation[2][1] * parameters.actuator_axis[3][1];
-    let t489 = mul_add(base_rotation[2][0], parameters.actuator_axis[3][0], t488);
-    let t490 = mul_add(base_rotation[2][2], parameters.actuator_axis[3][2], t489);
-    let t491 = mul_sub(t264, t476, t303 * t490);
-    let t492 = mul_add(t260, t491, t264 * t480);
-    let t493 = t262 * t486;
-    let t494 = c(2.0) * t493;
-    let t495 = mul_add(t262, t491, t264 * t486);
-    let t496 = t264 * t491;
-    let t497 = c(2.0) * t496;
+    let t488 = c(1.0) / t304;
+    let t489 = t303 * t488;
+    let t490 = base_rotation[0][1] * parameters.actuator_axis[3][1];
+    let t491 = mul_add(base_rotation[0][0], parameters.actuator_axis[3][0], t490);
+    let t492 = mul_add(base_rotation[0][2], parameters.actuator_axis[3][2], t491);
+    let t493 = neg_mul_add(t489, t492, t260);
+    let t494 = t304 * t493;
+    let t495 = t488 * (t303 * t303);
+    let t496 = t492 * t495;
+    let t497 = mul_sub(t493, t494, t492 * t496);
+    let t498 = base_rotation[1][1] * parameters.actuator_axis[3][1];
+    let t499 = mul_add(base_rotation[1][0], parameters.actuator_axis[3][0], t498);
+    let t500 = mul_add(base_rotation[1][2], parameters.actuator_axis[3][2], t499);
+    let t501 = neg_mul_add(t489, t500, t262);
+    let t502 = mul_sub(t494, t501, t496 * t500);
+    let t503 = base_rotation[2][1] * parameters.actuator_axis[3][1];
+    let t504 = mul_add(base_rotation[2][0], parameters.actuator_axis[3][0], t503);
+    let t505 = mul_add(base_rotation[2][2], parameters.actuator_axis[3][2], t504);
+    let t506 = neg_mul_add(t489, t505, t264);
+    let t507 = mul_sub(t494, t506, t496 * t505);
+    let t508 = t304 * t501;
+    let t509 = t495 * t500;
+    let t510 = mul_sub(t501, t508, t500 * t509);
+    let t511 = mul_sub(t506, t508, t505 * t509);
+    let t512 = mul_sub(t506, t304 * t506, t505 * (t495 * t505));
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t498 = t311 * c(0.5);
-    let t499 = base_rotation[0][1] * parameters.actuator_axis[4][1];
-    let t500 = mul_add(base_rotation[0][0], parameters.actuator_axis[4][0], t499);
-    let t501 = mul_add(base_rotation[0][2], parameters.actuator_axis[4][2], t500);
-    let t502 = mul_sub(t266, t498, t310 * t501);
-    let t503 = t266 * t502;
-    let t504 = c(2.0) * t503;
-    let t505 = base_rotation[1][1] * parameters.actuator_axis[4][1];
-    let t506 = mul_add(base_rotation[1][0], parameters.actuator_axis[4][0], t505);
-    let t507 = mul_add(base_rotation[1][2], parameters.actuator_axis[4][2], t506);
-    let t508 = mul_sub(t268, t498, t310 * t507);
-    let t509 = mul_add(t266, t508, t268 * t502);
-    let t510 = base_rotation[2][1] * parameters.actuator_axis[4][1];
-    let t511 = mul_add(base_rotation[2][0], parameters.actuator_axis[4][0], t510);
-    let t512 = mul_add(base_rotation[2][2], parameters.actuator_axis[4][2], t511);
-    let t513 = mul_sub(t270, t498, t310 * t512);
-    let t514 = mul_add(t266, t513, t270 * t502);
-    let t515 = t268 * t508;
-    let t516 = c(2.0) * t515;
-    let t517 = mul_add(t268, t513, t270 * t508);
-    let t518 = t270 * t513;
-    let t519 = c(2.0) * t518;
+    let t513 = c(1.0) / t311;
+    let t514 = t310 * t513;
+    let t515 = base_rotation[0][1] * parameters.actuator_axis[4][1];
+    let t516 = mul_add(base_rotation[0][0], parameters.actuator_axis[4][0], t515);
+    let t517 = mul_add(base_rotation[0][2], parameters.actuator_axis[4][2], t516);
+    let t518 = neg_mul_add(t514, t517, t266);
+    let t519 = t311 * t518;
+    let t520 = t513 * (t310 * t310);
+    let t521 = t517 * t520;
+    let t522 = mul_sub(t518, t519, t517 * t521);
+    let t523 = base_rotation[1][1] * parameters.actuator_axis[4][1];
+    let t524 = mul_add(base_rotation[1][0], parameters.actuator_axis[4][0], t523);
+    let t525 = mul_add(base_rotation[1][2], parameters.actuator_axis[4][2], t524);
+    let t526 = neg_mul_add(t514, t525, t268);
+    let t527 = mul_sub(t519, t526, t521 * t525);
+    let t528 = base_rotation[2][1] * parameters.actuator_axis[4][1];
+    let t529 = mul_add(base_rotation[2][0], parameters.actuator_axis[4][0], t528);
+    let t530 = mul_add(base_rotation[2][2], parameters.actuator_axis[4][2], t529);
+    let t531 = neg_mul_add(t514, t530, t270);
+    let t532 = mul_sub(t519, t531, t521 * t530);
+    let t533 = t311 * t526;
+    let t534 = t520 * t525;
+    let t535 = mul_sub(t526, t533, t525 * t534);
+    let t536 = mul_sub(t531, t533, t530 * t534);
+    let t537 = mul_sub(t531, t311 * t531, t530 * (t520 * t530));
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t520 = t318 * c(0.5);
-    let t521 = base_rotation[0][1] * parameters.actuator_axis[5][1];
-    let t522 = mul_add(base_rotation[0][0], parameters.actuator_axis[5][0], t521);
-    let t523 = mul_add(base_rotation[0][2], parameters.actuator_axis[5][2], t522);
-    let t524 = mul_sub(t272, t520, t317 * t523);
-    let t525 = t272 * t524;
-    let t526 = c(2.0) * t525;
-    let t527 = base_rotation[1][1] * parameters.actuator_axis[5][1];
-    let t528 = mul_add(base_rotation[1][0], parameters.actuator_axis[5][0], t527);
-    let t529 = mul_add(base_rotation[1][2], parameters.actuator_axis[5][2], t528);
-    let t530 = mul_sub(t274, t520, t317 * t529);
-    let t531 = mul_add(t272, t530, t274 * t524);
-    let t532 = base_rotation[2][1] * parameters.actuator_axis[5][1];
-    let t533 = mul_add(base_rotation[2][0], parameters.actuator_axis[5][0], t532);
-    let t534 = mul_add(base_rotation[2][2], parameters.actuator_axis[5][2], t533);
-    let t535 = mul_sub(t276, t520, t317 * t534);
-    let t536 = mul_add(t272, t535, t276 * t524);
-    let t537 = t274 * t530;
-    let t538 = c(2.0) * t537;
-    let t539 = mul_add(t274, t535, t276 * t530);
-    let t540 = t276 * t535;
-    let t541 = c(2.0) * t540;
+    let t538 = c(1.0) / t318;
+    let t539 = t317 * t538;
+    let t540 = base_rotation[0][1] * parameters.actuator_axis[5][1];
+    let t541 = mul_add(base_rotation[0][0], parameters.actuator_axis[5][0], t540);
+    let t542 = mul_add(base_rotation[0][2], parameters.actuator_axis[5][2], t541);
+    let t543 = neg_mul_add(t539, t542, t272);
+    let t544 = t318 * t543;
+    let t545 = t538 * (t317 * t317);
+    let t546 = t542 * t545;
+    let t547 = mul_sub(t543, t544, t542 * t546);
+    let t548 = base_rotation[1][1] * parameters.actuator_axis[5][1];
+    let t549 = mul_add(base_rotation[1][0], parameters.actuator_axis[5][0], t548);
+    let t550 = mul_add(base_rotation[1][2], parameters.actuator_axis[5][2], t549);
+    let t551 = neg_mul_add(t539, t550, t274);
+    let t552 = mul_sub(t544, t551, t546 * t550);
+    let t553 = base_rotation[2][1] * parameters.actuator_axis[5][1];
+    let t554 = mul_add(base_rotation[2][0], parameters.actuator_axis[5][0], t553);
+    let t555 = mul_add(base_rotation[2][2], parameters.actuator_axis[5][2], t554);
+    let t556 = neg_mul_add(t539, t555, t276);
+    let t557 = mul_sub(t544, t556, t546 * t555);
+    let t558 = t318 * t551;
+    let t559 = t545 * t550;
+    let t560 = mul_sub(t551, t558, t550 * t559);
+    let t561 = mul_sub(t556, t558, t555 * t559);
+    let t562 = mul_sub(t556, t318 * t556, t555 * (t545 * t555));
     // mass matrix of the legs
-    let t542 = mul_add(c(2.0), t459, mul_add(c(2.0), t418, t440));
-    let t543 = mul_add(c(2.0), t503, mul_add(c(2.0), t481, t542));
-    let t544 = mul_add(c(2.0), t525, t543);
-    let t545 = mul_sub(t150, t536, t156 * t526);
-    let t546 = mul_sub(t45, t429, t51 * t419);
-    let t547 = mul_sub(t66, t450, t72 * t440);
-    let t548 = mul_sub(t87, t470, t93 * t460);
-    let t549 = mul_sub(t108, t492, t114 * t482);
-    let t550 = mul_sub(t129, t514, t135 * t504);
-    let t551 = t546 + t547 + t548 + t549 + t550 + t545;
-    let t552 = mul_sub(t153, t526, t150 * t531);
-    let t553 = mul_sub(t48, t419, t45 * t424);
-    let t554 = mul_sub(t69, t440, t66 * t445);
-    let t555 = mul_sub(t90, t460, t87 * t465);
-    let t556 = mul_sub(t111, t482, t108 * t487);
-    let t557 = mul_sub(t132, t504, t129 * t509);
-    let t558 = t553 + t554 + t555 + t556 + t557 + t552;
-    let t559 = mul_add(c(2.0), t471, mul_add(c(2.0), t430, t451));
-    let t560 = mul_add(c(2.0), t515, mul_add(c(2.0), t493, t559));
-    let t561 = mul_add(c(2.0), t537, t560);
-    let t562 = mul_sub(t156, t538, t153 * t539);
-    let t563 = mul_sub(t51, t431, t48 * t432);
-    let t564 = mul_sub(t72, t451, t69 * t452);
-    let t565 = mul_sub(t93, t472, t90 * t473);
-    let t566 = mul_sub(t114, t494, t111 * t495);
-    let t567 = mul_sub(t135, t516, t132 * t517);
-    let t568 = t563 + t564 + t565 + t566 + t567 + t562;
-    let t569 = t150 * t539;
-    let t570 = mul_sub(t156, t531, t569);
-    let t571 = mul_sub(t153, t531, t150 * t538);
-    let t572 = mul_sub(t48, t424, t45 * t431);
-    let t573 = mul_sub(t69, t445, t66 * t451);
-    let t574 = mul_sub(t90, t465, t87 * t472);
-    let t575 = mul_sub(t111, t487, t108 * t494);
-    let t576 = mul_sub(t132, t509, t129 * t516);
+    let t563 = t547 + (t522 + (t497 + (t472 + (t422 + t447))));
+    let t564 = mul_sub(t150, t557, t156 * t547);
+    let t565 = mul_sub(t45, t432, t51 * t422);
+    let t566 = mul_sub(t66, t457, t72 * t447);
+    let t567 = mul_sub(t87, t482, t93 * t472);
+    let t568 = mul_sub(t108, t507, t114 * t497);
+    let t569 = mul_sub(t129, t532, t135 * t522);
+    let t570 = t565 + t566 + t567 + t568 + t569 + t564;
+    let t571 = mul_sub(t153, t547, t150 * t552);
+    let t572 = mul_sub(t48, t422, t45 * t427);
+    let t573 = mul_sub(t69, t447, t66 * t452);
+    let t574 = mul_sub(t90, t472, t87 * t477);
+    let t575 = mul_sub(t111, t497, t108 * t502);
+    let t576 = mul_sub(t132, t522, t129 * t527);
     let t577 = t572 + t573 + t574 + t575 + t576 + t571;
-    let t578 = mul_add(c(2.0), t474, mul_add(c(2.0), t433, t453));
-    let t579 = mul_add(c(2.0), t518, mul_add(c(2.0), t496, t578));
-    let t580 = mul_add(c(2.0), t540, t579);
-    let t581 = mul_sub(t156, t539, t153 * t541);
-    let t582 = mul_sub(t51, t432, t48 * t434);
-    let t583 = mul_sub(t72, t452, t69 * t453);
-    let t584 = mul_sub(t93, t473, t90 * t475);
-    let t585 = mul_sub(t114, t495, t111 * t497);
-    let t586 = mul_sub(t135, t517, t132 * t519);
-    let t587 = t582 + t583 + t584 + t585 + t586 + t581;
-    let t588 = mul_sub(t150, t541, t156 * t536);
-    let t589 = mul_sub(t45, t434, t51 * t429);
-    let t590 = mul_sub(t66, t453, t72 * t450);
-    let t591 = mul_sub(t87, t475, t93 * t470);
-    let t592 = mul_sub(t108, t497, t114 * t492);
-    let t593 = mul_sub(t129, t519, t135 * t514);
+    let t578 = t560 + (t535 + (t510 + (t485 + (t435 + t460))));
+    let t579 = mul_sub(t156, t560, t153 * t561);
+    let t580 = mul_sub(t51, t435, t48 * t436);
+    let t581 = mul_sub(t72, t460, t69 * t461);
+    let t582 = mul_sub(t93, t485, t90 * t486);
+    let t583 = mul_sub(t114, t510, t111 * t511);
+    let t584 = mul_sub(t135, t535, t132 * t536);
+    let t585 = t580 + t581 + t582 + t583 + t584 + t579;
+    let t586 = t150 * t561;
+    let t587 = mul_sub(t156, t552, t586);
+    let t588 = mul_sub(t153, t552, t150 * t560);
+    let t589 = mul_sub(t48, t427, t45 * t435);
+    let t590 = mul_sub(t69, t452, t66 * t460);
+    let t591 = mul_sub(t90, t477, t87 * t485);
+    let t592 = mul_sub(t111, t502, t108 * t510);
+    let t593 = mul_sub(t132, t527, t129 * t535);
     let t594 = t589 + t590 + t591 + t592 + t593 + t588;
-    let t595 = mul_sub(t153, t536, t569);
-    let t596 = mul_sub(t72, t564, t69 * t583);
-    let t597 = mul_sub(t51, t563, t48 * t582) + t596;
-    let t598 = t597 + mul_sub(t93, t565, t90 * t584);
-    let t599 = mul_add(t114, t566, mul_sub(t135, t567, t132 * t586));
-    let t600 = t598 + neg_mul_add(t111, t585, t599);
-    let t601 = t45 * t432;
-    let t602 = mul_sub(t51, t424, t601);
-    let t603 = t66 * t452;
-    let t604 = mul_sub(t72, t445, t603);
-    let t605 = mul_add(t72, t604, t69 * t590);
-    let t606 = mul_add(t51, t602, t48 * t589) + t605;
-    let t607 = t87 * t473;
-    let t608 = mul_sub(t93, t465, t607);
-    let t609 = t606 + mul_add(t93, t608, t90 * t591);
-    let t610 = t108 * t495;
-    let t611 = mul_sub(t114, t487, t610);
-    let t612 = t129 * t517;
-    let t613 = mul_sub(t135, t509, t612);
-    let t614 = mul_add(t114, t611, mul_add(t135, t613, t132 * t593));
-    let t615 = t609 + mul_add(t111, t592, t614);
-    let t616 = mul_sub(t48, t429, t601);
-    let t617 = mul_sub(t69, t450, t603);
-    let t618 = mul_sub(t72, t573, t69 * t617);
-    let t619 = mul_sub(t51, t572, t48 * t616) + t618;
-    let t620 = mul_sub(t90, t470, t607);
-    let t621 = t619 + mul_sub(t93, t574, t90 * t620);
-    let t622 = mul_sub(t111, t492, t610);
-    let t623 = mul_sub(t132, t514, t612);
-    let t624 = mul_add(t114, t575, mul_sub(t135, t576, t132 * t623));
-    let t625 = t621 + neg_mul_add(t111, t622, t624);
-    let t626 = mul_sub(t66, t590, t72 * t547);
-    let t627 = mul_sub(t45, t589, t51 * t546) + t626;
-    let t628 = t627 + mul_sub(t87, t591, t93 * t548);
-    let t629 = mul_add(t108, t592, mul_sub(t129, t593, t135 * t550));
-    let t630 = t628 + neg_mul_add(t114, t549, t629);
-    let t631 = mul_sub(t66, t617, t72 * t554);
-    let t632 = mul_sub(t45, t616, t51 * t553) + t631;
-    let t633 = t632 + mul_sub(t87, t620, t93 * t555);
-    let t634 = mul_add(t108, t622, mul_sub(t129, t623, t135 * t557));
-    let t635 = t633 + neg_mul_add(t114, t556, t634);
-    let t636 = mul_sub(t69, t554, t66 * t573);
-    let t637 = mul_sub(t48, t553, t45 * t572) + t636;
-    let t638 = t637 + mul_sub(t90, t555, t87 * t574);
-    let t639 = mul_add(t111, t556, mul_sub(t132, t557, t129 * t576));
-    let t640 = t638 + neg_mul_add(t108, t575, t639);
-    let t641 = t531 + (t509 + (t487 + (t465 + (t424 + t445))));
-    mass_matrix_p[0][1] = t641;
-    mass_matrix_p[1][0] = t641;
-    let t642 = t536 + (t514 + (t492 + (t470 + (t429 + t450))));
-    mass_matrix_p[0][2] = t642;
-    mass_matrix_p[2][0] = t642;
-    let t643 = neg_mul_add(t51, t424, t48 * t429);
-    let t644 = t643 - mul_sub(t72, t445, t69 * t450);
-    let t645 = t644 - mul_sub(t93, t465, t90 * t470);
-    let t646 = t645 - mul_sub(t114, t487, t111 * t492);
-    let t647 = t646 - mul_sub(t135, t509, t132 * t514);
-    let t648 = t647 - mul_sub(t156, t531, t153 * t536);
-    mass_matrix_p[0][3] = t648;
-    mass_matrix_p[3][0] = t648;
-    let t649 = t539 + (t517 + (t495 + (t473 + (t432 + t452))));
-    mass_matrix_p[1][2] = t649;
-    mass_matrix_p[2][1] = t649;
-    let t650 = t602 + t604 + t608 + t611 + t613 + t570;
-    mass_matrix_p[1][4] = t650;
-    mass_matrix_p[4][1] = t650;
-    let t651 = -(t616 + t617 + t620 + t622 + t623 + t595);
-    mass_matrix_p[2][5] = t651;
-    mass_matrix_p[5][2] = t651;
+    let t595 = t562 + (t537 + (t512 + (t487 + (t437 + t462))));
+    let t596 = mul_sub(t156, t561, t153 * t562);
+    let t597 = mul_sub(t51, t436, t48 * t437);
+    let t598 = mul_sub(t72, t461, t69 * t462);
+    let t599 = mul_sub(t93, t486, t90 * t487);
+    let t600 = mul_sub(t114, t511, t111 * t512);
+    let t601 = mul_sub(t135, t536, t132 * t537);
+    let t602 = t597 + t598 + t599 + t600 + t601 + t596;
+    let t603 = mul_sub(t150, t562, t156 * t557);
+    let t604 = mul_sub(t45, t437, t51 * t432);
+    let t605 = mul_sub(t66, t462, t72 * t457);
+    let t606 = mul_sub(t87, t487, t93 * t482);
+    let t607 = mul_sub(t108, t512, t114 * t507);
+    let t608 = mul_sub(t129, t537, t135 * t532);
+    let t609 = t604 + t605 + t606 + t607 + t608 + t603;
+    let t610 = mul_sub(t153, t557, t586);
+    let t611 = mul_sub(t72, t581, t69 * t598);
+    let t612 = mul_sub(t51, t580, t48 * t597) + t611;
+    let t613 = t612 + mul_sub(t93, t582, t90 * t599);
+    let t614 = mul_add(t114, t583, mul_sub(t135, t584, t132 * t601));
+    let t615 = t613 + neg_mul_add(t111, t600, t614);
+    let t616 = t45 * t436;
+    let t617 = mul_sub(t51, t427, t616);
+    let t618 = t66 * t461;
+    let t619 = mul_sub(t72, t452, t618);
+    let t620 = mul_add(t72, t619, t69 * t605);
+    let t621 = mul_add(t51, t617, t48 * t604) + t620;
+    let t622 = t87 * t486;
+    let t623 = mul_sub(t93, t477, t622);
+    let t624 = t621 + mul_add(t93, t623, t90 * t606);
+    let t625 = t108 * t511;
+    let t626 = mul_sub(t114, t502, t625);
+    let t627 = t129 * t536;
+    let t628 = mul_sub(t135, t527, t627);
+    let t629 = mul_add(t114, t626, mul_add(t135, t628, t132 * t608));
+    let t630 = t624 + mul_add(t111, t607, t629);
+    let t631 = mul_sub(t48, t432, t616);
+    let t632 = mul_sub(t69, t457, t618);
+    let t633 = mul_sub(t72, t590, t69 * t632);
+    let t634 = mul_sub(t51, t589, t48 * t631) + t633;
+    let t635 = mul_sub(t90, t482, t622);
+    let t636 = t634 + mul_sub(t93, t591, t90 * t635);
+    let t637 = mul_sub(t111, t507, t625);
+    let t638 = mul_sub(t132, t532, t627);
+    let t639 = mul_add(t114, t592, mul_sub(t135, t593, t132 * t638));
+    let t640 = t636 + neg_mul_add(t111, t637, t639);
+    let t641 = mul_sub(t66, t605, t72 * t566);
+    let t642 = mul_sub(t45, t604, t51 * t565) + t641;
+    let t643 = t642 + mul_sub(t87, t606, t93 * t567);
+    let t644 = mul_add(t108, t607, mul_sub(t129, t608, t135 * t569));
+    let t645 = t643 + neg_mul_add(t114, t568, t644);
+    let t646 = mul_sub(t66, t632, t72 * t573);
+    let t647 = mul_sub(t45, t631, t51 * t572) + t646;
+    let t648 = t647 + mul_sub(t87, t635, t93 * t574);
+    let t649 = mul_add(t108, t637, mul_sub(t129, t638, t135 * t576));
+    let t650 = t648 + neg_mul_add(t114, t575, t649);
+    let t651 = mul_sub(t69, t573, t66 * t590);
+    let t652 = mul_sub(t48, t572, t45 * t589) + t651;
+    let t653 = t652 + mul_sub(t90, t574, t87 * t591);
+    let t654 = mul_add(t111, t575, mul_sub(t132, t576, t129 * t593));
+    let t655 = t653 + neg_mul_add(t108, t592, t654);
+    let t656 = t552 + (t527 + (t502 + (t477 + (t427 + t452))));
+    mass_matrix_p[0][1] = t656;
+    mass_matrix_p[1][0] = t656;
+    let t657 = t557 + (t532 + (t507 + (t482 + (t432 + t457))));
+    mass_matrix_p[0][2] = t657;
+    mass_matrix_p[2][0] = t657;
+    let t658 = neg_mul_add(t51, t427, t48 * t432);
+    let t659 = t658 - mul_sub(t72, t452, t69 * t457);
+    let t660 = t659 - mul_sub(t93, t477, t90 * t482);
+    let t661 = t660 - mul_sub(t114, t502, t111 * t507);
+    let t662 = t661 - mul_sub(t135, t527, t132 * t532);
+    let t663 = t662 - mul_sub(t156, t552, t153 * t557);
+    mass_matrix_p[0][3] = t663;
+    mass_matrix_p[3][0] = t663;
+    let t664 = t561 + (t536 + (t511 + (t486 + (t436 + t461))));
+    mass_matrix_p[1][2] = t664;
+    mass_matrix_p[2][1] = t664;
+    let t665 = t617 + t619 + t623 + t626 + t628 + t587;
+    mass_matrix_p[1][4] = t665;
+    mass_matrix_p[4][1] = t665;
+    let t666 = -(t631 + t632 + t635 + t637 + t638 + t610);
+    mass_matrix_p[2][5] = t666;
+    mass_matrix_p[5][2] = t666;
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = t320 + t544;
-    let t652 = mul_add(platform_rotation[2][0], t327, platform_rotation[2][1] * t334);
-    let t653 = mul_add(platform_rotation[2][2], t341, t652);
-    let t654 = t653 - t551;
-    mass_matrix_p[0][4] = t654;
-    mass_matrix_p[4][0] = t654;
-    let t655 = mul_add(platform_rotation[1][0], t327, platform_rotation[1][1] * t334);
-    let t656 = mul_add(platform_rotation[1][2], t341, t655);
-    let t657 = -(t558 + t656);
-    mass_matrix_p[0][5] = t657;
-    mass_matrix_p[5][0] = t657;
-    mass_matrix_p[1][1] = t320 + t561;
-    let t658 = -(t568 + t653);
-    mass_matrix_p[1][3] = t658;
-    mass_matrix_p[3][1] = t658;
-    let t659 = mul_add(platform_rotation[0][0], t327, platform_rotation[0][1] * t334);
-    let t660 = mul_add(platform_rotation[0][2], t341, t659);
-    let t661 = t660 - t577;
-    mass_matrix_p[1][5] = t661;
-    mass_matrix_p[5][1] = t661;
-    mass_matrix_p[2][2] = t320 + t580;
-    let t662 = t656 - t587;
-    mass_matrix_p[2][3] = t662;
-    mass_matrix_p[3][2] = t662;
-    let t663 = -(t594 + t660);
-    mass_matrix_p[2][4] = t663;
-    mass_matrix_p[4][2] = t663;
-    let t664 = mul_add(platform_rotation[0][0], t377, platform_rotation[0][1] * t400);
-    let t665 = mul_add(platform_rotation[0][2], t412, t664);
-    let t666 = t412 + (t355 + t389);
-    let t667 = mul_add(platform_rotation[0][0], t355, platform_rotation[0][1] * t366);
-    let t668 = mul_add(platform_rotation[0][2], t377, t667);
-    let t669 = mul_add(platform_rotation[0][0], t366, platform_rotation[0][1] * t389);
-    let t670 = mul_add(platform_rotation[0][2], t400, t669);
-    let t671 = mul_add(platform_rotation[0][0], t668, platform_rotation[0][1] * t670);
-    let t672 = neg_mul_add(platform_rotation[0][2], t665, t666) - t671;
-    mass_matrix_p[3][3] = t600 + neg_mul_add(t153, t581, mul_sub(t156, t562, t672));
-    let t673 = mul_add(platform_rotation[1][0], t668, platform_rotation[1][1] * t670);
-    let t674 = neg_mul_add(t156, t570, mul_add(platform_rotation[1][2], t665, t673));
-    let t675 = neg_mul_add(t153, t588, t674) - t615;
-    mass_matrix_p[3][4] = t675;
-    mass_matrix_p[4][3] = t675;
-    let t676 = mul_add(platform_rotation[2][0], t668, platform_rotation[2][1] * t670);
-    let t677 = mul_add(t156, t571, mul_add(platform_rotation[2][2], t665, t676));
-    let t678 = t625 + neg_mul_add(t153, t595, t677);
-    mass_matrix_p[3][5] = t678;
-    mass_matrix_p[5][3] = t678;
-    let t679 = mul_add(platform_rotation[1][0], t377, platform_rotation[1][1] * t400);
-    let t680 = mul_add(platform_rotation[1][2], t412, t679);
-    let t681 = mul_add(platform_rotation[1][0], t355, platform_rotation[1][1] * t366);
-    let t682 = mul_add(platform_rotation[1][2], t377, t681);
-    let t683 = mul_add(platform_rotation[1][0], t366, platform_rotation[1][1] * t389);
-    let t684 = mul_add(platform_rotation[1][2], t400, t683);
-    let t685 = mul_add(platform_rotation[1][0], t682, platform_rotation[1][1] * t684);
-    let t686 = neg_mul_add(platform_rotation[1][2], t680, t666) - t685;
-    mass_matrix_p[4][4] = t630 + neg_mul_add(t156, t545, mul_sub(t150, t588, t686));
-    let t687 = mul_add(platform_rotation[2][0], t682, platform_rotation[2][1] * t684);
-    let t688 = mul_add(t150, t595, mul_add(platform_rotation[2][2], t680, t687));
-    let t689 = t635 + neg_mul_add(t156, t552, t688);
-    mass_matrix_p[4][5] = t689;
-    mass_matrix_p[5][4] = t689;
-    let t690 = mul_add(platform_rotation[2][0], t377, platform_rotation[2][1] * t400);
-    let t691 = mul_add(platform_rotation[2][2], t412, t690);
-    let t692 = neg_mul_add(platform_rotation[2][2], t691, t666);
-    let t693 = mul_add(platform_rotation[2][0], t355, platform_rotation[2][1] * t366);
-    let t694 = mul_add(platform_rotation[2][2], t377, t693);
-    let t695 = mul_add(platform_rotation[2][0], t366, platform_rotation[2][1] * t389);
-    let t696 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t400, t695);
-    let t697 = t692 - mul_add(platform_rotation[2][0], t694, t696);
-    mass_matrix_p[5][5] = t640 + neg_mul_add(t150, t571, mul_sub(t153, t552, t697));
+    mass_matrix_p[0][0] = t320 + t563;
+    let t667 = mul_add(platform_rotation[2][0], t327, platform_rotation[2][1] * t334);
+    let t668 = mul_add(platform_rotation[2][2], t341, t667);
+    let t669 = t668 - t570;
+    mass_matrix_p[0][4] = t669;
+    mass_matrix_p[4][0] = t669;
+    let t670 = mul_add(platform_rotation[1][0], t327, platform_rotation[1][1] * t334);
+    let t671 = mul_add(platform_rotation[1][2], t341, t670);
+    let t672 = -(t577 + t671);
+    mass_matrix_p[0][5] = t672;
+    mass_matrix_p[5][0] = t672;
+    mass_matrix_p[1][1] = t320 + t578;
+    let t673 = -(t585 + t668);
+    mass_matrix_p[1][3] = t673;
+    mass_matrix_p[3][1] = t673;
+    let t674 = mul_add(platform_rotation[0][0], t327, platform_rotation[0][1] * t334);
+    let t675 = mul_add(platform_rotation[0][2], t341, t674);
+    let t676 = t675 - t594;
+    mass_matrix_p[1][5] = t676;
+    mass_matrix_p[5][1] = t676;
+    mass_matrix_p[2][2] = t320 + t595;
+    let t677 = t671 - t602;
+    mass_matrix_p[2][3] = t677;
+    mass_matrix_p[3][2] = t677;
+    let t678 = -(t609 + t675);
+    mass_matrix_p[2][4] = t678;
+    mass_matrix_p[4][2] = t678;
+    let t679 = mul_add(platform_rotation[0][0], t377, platform_rotation[0][1] * t400);
+    let t680 = mul_add(platform_rotation[0][2], t412, t679);
+    let t681 = t412 + (t355 + t389);
+    let t682 = mul_add(platform_rotation[0][0], t355, platform_rotation[0][1] * t366);
+    let t683 = mul_add(platform_rotation[0][2], t377, t682);
+    let t684 = mul_add(platform_rotation[0][0], t366, platform_rotation[0][1] * t389);
+    let t685 = mul_add(platform_rotation[0][2], t400, t684);
+    let t686 = mul_add(platform_rotation[0][0], t683, platform_rotation[0][1] * t685);
+    let t687 = neg_mul_add(platform_rotation[0][2], t680, t681) - t686;
+    mass_matrix_p[3][3] = t615 + neg_mul_add(t153, t596, mul_sub(t156, t579, t687));
+    let t688 = mul_add(platform_rotation[1][0], t683, platform_rotation[1][1] * t685);
+    let t689 = neg_mul_add(t156, t587, mul_add(platform_rotation[1][2], t680, t688));
+    let t690 = neg_mul_add(t153, t603, t689) - t630;
+    mass_matrix_p[3][4] = t690;
+    mass_matrix_p[4][3] = t690;
+    let t691 = mul_add(platform_rotation[2][0], t683, platform_rotation[2][1] * t685);
+    let t692 = mul_add(t156, t588, mul_add(platform_rotation[2][2], t680, t691));
+    let t693 = t640 + neg_mul_add(t153, t610, t692);
+    mass_matrix_p[3][5] = t693;
+    mass_matrix_p[5][3] = t693;
+    let t694 = mul_add(platform_rotation[1][0], t377, platform_rotation[1][1] * t400);
+    let t695 = mul_add(platform_rotation[1][2], t412, t694);
+    let t696 = mul_add(platform_rotation[1][0], t355, platform_rotation[1][1] * t366);
+    let t697 = mul_add(platform_rotation[1][2], t377, t696);
+    let t698 = mul_add(platform_rotation[1][0], t366, platform_rotation[1][1] * t389);
+    let t699 = mul_add(platform_rotation[1][2], t400, t698);
+    let t700 = mul_add(platform_rotation[1][0], t697, platform_rotation[1][1] * t699);
+    let t701 = neg_mul_add(platform_rotation[1][2], t695, t681) - t700;
+    mass_matrix_p[4][4] = t645 + neg_mul_add(t156, t564, mul_sub(t150, t603, t701));
+    let t702 = mul_add(platform_rotation[2][0], t697, platform_rotation[2][1] * t699);
+    let t703 = mul_add(t150, t610, mul_add(platform_rotation[2][2], t695, t702));
+    let t704 = t650 + neg_mul_add(t156, t571, t703);
+    mass_matrix_p[4][5] = t704;
+    mass_matrix_p[5][4] = t704;
+    let t705 = mul_add(platform_rotation[2][0], t377, platform_rotation[2][1] * t400);
+    let t706 = mul_add(platform_rotation[2][2], t412, t705);
+    let t707 = neg_mul_add(platform_rotation[2][2], t706, t681);
+    let t708 = mul_add(platform_rotation[2][0], t355, platform_rotation[2][1] * t366);
+    let t709 = mul_add(platform_rotation[2][2], t377, t708);
+    let t710 = mul_add(platform_rotation[2][0], t366, platform_rotation[2][1] * t389);
+    let t711 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t400, t710);
+    let t712 = t707 - mul_add(platform_rotation[2][0], t709, t711);
+    mass_matrix_p[5][5] = t655 + neg_mul_add(t150, t588, mul_sub(t153, t571, t712));
 }
 
 /// Mass matrix that couples the base acceleration, equation (49).
@@ -23111,21 +23126,21 @@ pub fn control<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t60, t63, t66, t81, t84, t87,
-        t102, t105, t108, t123, t126, t129, t144, t147, t150, t172, t173, t183, t184, t194, t195,
-        t205, t206, t216, t217, t227, t228, t229, t230, t231, t232, t233, t234, t235, t236, t237,
-        t238, t239, t240, t241, t242, t243, t244, t245, t246, t248, t250, t252, t254, t256, t258,
-        t260, t262, t264, t266, t268, t270, t272, t274, t276, t278, t280, t282, t283, t284, t285,
-        t286, t287, t288, t289, t290, t291, t292, t293, t294, t295, t296, t297, t298, t299, t300,
-        t303, t306, t310, t313, t317, t320, t324, t327, t331, t334, t338, t341, t344, t351, t358,
-        t365, t379, t390, t401, t413, t424, t436, t569, t570, t576, t594, t614, t645, t678, t681,
-        t684, t685, t686, t689, t690, t691, t692, t702, t705, t708, t717, t720, t729, t739, t742,
-        t745, t755, t756, t757, t773, t774, t775, t776, t777, t778, t779, t780, t781, t782, t783,
-        t784, t785, t786, t787, t791, t792, t793, t794, t795, t799, t800, t801, t802, t803, t807,
-        t808, t809, t810, t811, t815, t816, t817, t818, t819, t823, t824, t825, t826, t827, t831,
-        t832, t833, t834, t835, t840, t842, t844, t854, t855, t856, t857, t859, t860, t861, t862,
-        t863, t866, t869, t872, t875, t878, t881, t883, t885, t887, t888, t889, t890, t895, t899,
-        t902, t903, t904, t905, t907, t909, t911,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t39, t42, t45, t60, t63, t66, t81,
+        t84, t87, t102, t105, t108, t123, t126, t129, t144, t147, t150, t172, t173, t183, t184,
+        t194, t195, t205, t206, t216, t217, t227, t228, t229, t230, t231, t232, t233, t234, t235,
+        t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t248, t250, t252, t254,
+        t256, t258, t260, t262, t264, t266, t268, t270, t272, t274, t276, t278, t280, t282, t283,
+        t284, t285, t286, t287, t288, t289, t290, t291, t292, t293, t294, t295, t296, t297, t298,
+        t299, t300, t303, t306, t310, t313, t317, t320, t324, t327, t331, t334, t338, t341, t344,
+        t351, t358, t365, t379, t390, t401, t413, t424, t436, t588, t589, t595, t611, t631, t660,
+        t693, t696, t699, t700, t701, t704, t705, t706, t707, t717, t720, t723, t732, t735, t744,
+        t754, t757, t760, t763, t766, t769, t770, t771, t772, t778, t781, t784, t785, t786, t787,
+        t788, t789, t790, t791, t792, t793, t794, t795, t796, t797, t798, t799, t800, t801, t802,
+        t806, t807, t808, t809, t810, t814, t815, t816, t817, t818, t822, t823, t824, t825, t826,
+        t830, t831, t832, t833, t834, t838, t839, t840, t841, t842, t846, t847, t848, t849, t850,
+        t855, t857, t859, t862, t865, t868, t869, t870, t871, t872, t874, t875, t876, t877, t878,
+        t881, t884, t887, t890, t893, t896, t898, t900, t902, t903, t904, t905,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -23689,1078 +23704,1093 @@ pub fn control<T: Scalar>(
         let t435 = neg_mul_add(t326, t427, neg_mul_add(t319, t428, t434));
         let t436 = neg_mul_add(t340, t425, neg_mul_add(t333, t426, t435));
         // leg 1: mass matrix of the leg in the speeds of its joint
-        let t437 = t307 * c(0.5);
-        let t438 = base_rotation[0][1] * parameters.actuator_axis[0][1];
-        let t439 = mul_add(base_rotation[0][0], parameters.actuator_axis[0][0], t438);
-        let t440 = mul_add(base_rotation[0][2], parameters.actuator_axis[0][2], t439);
-        let t441 = mul_sub(t248, t437, t306 * t440);
-        let t442 = t248 * t441;
-        let t443 = c(2.0) * t442;
-        let t444 = base_rotation[1][1] * parameters.actuator_axis[0][1];
-        let t445 = mul_add(base_rotation[1][0], parameters.actuator_axis[0][0], t444);
-        let t446 = mul_add(base_rotation[1][2], parameters.actuator_axis[0][2], t445);
-        let t447 = mul_sub(t250, t437, t306 * t446);
-        let t448 = mul_add(t248, t447, t250 * t441);
-        let t449 = base_rotation[2][1] * parameters.actuator_axis[0][1];
-        let t450 = mul_add(base_rotation[2][0], parameters.actuator_axis[0][0], t449);
-        let t451 = mul_add(base_rotation[2][2], parameters.actuator_axis[0][2], t450);
-        let t452 = mul_sub(t252, t437, t306 * t451);
-        let t453 = mul_add(t248, t452, t252 * t441);
-        let t454 = t250 * t447;
-        let t455 = c(2.0) * t454;
-        let t456 = mul_add(t250, t452, t252 * t447);
-        let t457 = t252 * t452;
-        let t458 = c(2.0) * t457;
+        let t437 = c(1.0) / t307;
+        let t438 = t306 * t437;
+        let t439 = base_rotation[0][1] * parameters.actuator_axis[0][1];
+        let t440 = mul_add(base_rotation[0][0], parameters.actuator_axis[0][0], t439);
+        let t441 = mul_add(base_rotation[0][2], parameters.actuator_axis[0][2], t440);
+        let t442 = neg_mul_add(t438, t441, t248);
+        let t443 = t307 * t442;
+        let t444 = t437 * (t306 * t306);
+        let t445 = t441 * t444;
+        let t446 = mul_sub(t442, t443, t441 * t445);
+        let t447 = base_rotation[1][1] * parameters.actuator_axis[0][1];
+        let t448 = mul_add(base_rotation[1][0], parameters.actuator_axis[0][0], t447);
+        let t449 = mul_add(base_rotation[1][2], parameters.actuator_axis[0][2], t448);
+        let t450 = neg_mul_add(t438, t449, t250);
+        let t451 = mul_sub(t443, t450, t445 * t449);
+        let t452 = base_rotation[2][1] * parameters.actuator_axis[0][1];
+        let t453 = mul_add(base_rotation[2][0], parameters.actuator_axis[0][0], t452);
+        let t454 = mul_add(base_rotation[2][2], parameters.actuator_axis[0][2], t453);
+        let t455 = neg_mul_add(t438, t454, t252);
+        let t456 = mul_sub(t443, t455, t445 * t454);
+        let t457 = t307 * t450;
+        let t458 = t444 * t449;
+        let t459 = mul_sub(t450, t457, t449 * t458);
+        let t460 = mul_sub(t455, t457, t454 * t458);
+        let t461 = mul_sub(t455, t307 * t455, t454 * (t444 * t454));
         // leg 2: mass matrix of the leg in the speeds of its joint
-        let t459 = t314 * c(0.5);
-        let t460 = base_rotation[0][1] * parameters.actuator_axis[1][1];
-        let t461 = mul_add(base_rotation[0][0], parameters.actuator_axis[1][0], t460);
-        let t462 = mul_add(base_rotation[0][2], parameters.actuator_axis[1][2], t461);
-        let t463 = mul_sub(t254, t459, t313 * t462);
-        let t464 = c(2.0) * (t254 * t463);
-        let t465 = base_rotation[1][1] * parameters.actuator_axis[1][1];
-        let t466 = mul_add(base_rotation[1][0], parameters.actuator_axis[1][0], t465);
-        let t467 = mul_add(base_rotation[1][2], parameters.actuator_axis[1][2], t466);
-        let t468 = mul_sub(t256, t459, t313 * t467);
-        let t469 = mul_add(t254, t468, t256 * t463);
-        let t470 = base_rotation[2][1] * parameters.actuator_axis[1][1];
-        let t471 = mul_add(base_rotation[2][0], parameters.actuator_axis[1][0], t470);
-        let t472 = mul_add(base_rotation[2][2], parameters.actuator_axis[1][2], t471);
-        let t473 = mul_sub(t258, t459, t313 * t472);
-        let t474 = mul_add(t254, t473, t258 * t463);
-        let t475 = c(2.0) * (t256 * t468);
-        let t476 = mul_add(t256, t473, t258 * t468);
-        let t477 = c(2.0) * (t258 * t473);
+        let t462 = c(1.0) / t314;
+        let t463 = t313 * t462;
+        let t464 = base_rotation[0][1] * parameters.actuator_axis[1][1];
+        let t465 = mul_add(base_rotation[0][0], parameters.actuator_axis[1][0], t464);
+        let t466 = mul_add(base_rotation[0][2], parameters.actuator_axis[1][2], t465);
+        let t467 = neg_mul_add(t463, t466, t254);
+        let t468 = t314 * t467;
+        let t469 = t462 * (t313 * t313);
+        let t470 = t466 * t469;
+        let t471 = mul_sub(t467, t468, t466 * t470);
+        let t472 = base_rotation[1][1] * parameters.actuator_axis[1][1];
+        let t473 = mul_add(base_rotation[1][0], parameters.actuator_axis[1][0], t472);
+        let t474 = mul_add(base_rotation[1][2], parameters.actuator_axis[1][2], t473);
+        let t475 = neg_mul_add(t463, t474, t256);
+        let t476 = mul_sub(t468, t475, t470 * t474);
+        let t477 = base_rotation[2][1] * parameters.actuator_axis[1][1];
+        let t478 = mul_add(base_rotation[2][0], parameters.actuator_axis[1][0], t477);
+        let t479 = mul_add(base_rotation[2][2], parameters.actuator_axis[1][2], t478);
+        let t480 = neg_mul_add(t463, t479, t258);
+        let t481 = mul_sub(t468, t480, t470 * t479);
+        let t482 = t314 * t475;
+        let t483 = t469 * t474;
+        let t484 = mul_sub(t475, t482, t474 * t483);
+        let t485 = mul_sub(t480, t482, t479 * t483);
+        let t486 = mul_sub(t480, t314 * t480, t479 * (t469 * t479));
         // leg 3: mass matrix of the leg in the speeds of its joint
-        let t478 = t321 * c(0.5);
-        let t479 = base_rotation[0][1] * parameters.actuator_axis[2][1];
-        let t480 = mul_add(base_rotation[0][0], parameters.actuator_axis[2][0], t479);
-        let t481 = mul_add(base_rotation[0][2], parameters.actuator_axis[2][2], t480);
-        let t482 = mul_sub(t260, t478, t320 * t481);
-        let t483 = t260 * t482;
-        let t484 = c(2.0) * t483;
-        let t485 = base_rotation[1][1] * parameters.actuator_axis[2][1];
-        let t486 = mul_add(base_rotation[1][0], parameters.actuator_axis[2][0], t485);
-        let t487 = mul_add(base_rotation[1][2], parameters.actuator_axis[2][2], t486);
-        let t488 = mul_sub(t262, t478, t320 * t487);
-        let t489 = mul_add(t260, t488, t262 * t482);
-        let t490 = base_rotation[2][1] * parameters.actuator_axis[2][1];
-        let t491 = mul_add(base_rotation[2][0], parameters.actuator_axis[2][0], t490);
-        let t492 = mul_add(base_rotation[2][2], parameters.actuator_axis[2][2], t491);
-        let t493 = mul_sub(t264, t478, t320 * t492);
-        let t494 = mul_add(t260, t493, t264 * t482);
-        let t495 = t262 * t488;
-        let t496 = c(2.0) * t495;
-        let t497 = mul_add(t262, t493, t264 * t488);
-        let t498 = t264 * t493;
-        let t499 = c(2.0) * t498;
+        let t487 = c(1.0) / t321;
+        let t488 = t320 * t487;
+        let t489 = base_rotation[0][1] * parameters.actuator_axis[2][1];
+        let t490 = mul_add(base_rotation[0][0], parameters.actuator_axis[2][0], t489);
+        let t491 = mul_add(base_rotation[0][2], parameters.actuator_axis[2][2], t490);
+        let t492 = neg_mul_add(t488, t491, t260);
+        let t493 = t321 * t492;
+        let t494 = t487 * (t320 * t320);
+        let t495 = t491 * t494;
+        let t496 = mul_sub(t492, t493, t491 * t495);
+        let t497 = base_rotation[1][1] * parameters.actuator_axis[2][1];
+        let t498 = mul_add(base_rotation[1][0], parameters.actuator_axis[2][0], t497);
+        let t499 = mul_add(base_rotation[1][2], parameters.actuator_axis[2][2], t498);
+        let t500 = neg_mul_add(t488, t499, t262);
+        let t501 = mul_sub(t493, t500, t495 * t499);
+        let t502 = base_rotation[2][1] * parameters.actuator_axis[2][1];
+        let t503 = mul_add(base_rotation[2][0], parameters.actuator_axis[2][0], t502);
+        let t504 = mul_add(base_rotation[2][2], parameters.actuator_axis[2][2], t503);
+        let t505 = neg_mul_add(t488, t504, t264);
+        let t506 = mul_sub(t493, t505, t495 * t504);
+        let t507 = t321 * t500;
+        let t508 = t494 * t499;
+        let t509 = mul_sub(t500, t507, t499 * t508);
+        let t510 = mul_sub(t505, t507, t504 * t508);
+        let t511 = mul_sub(t505, t321 * t505, t504 * (t494 * t504));
         // leg 4: mass matrix of the leg in the speeds of its joint
-        let t500 = t328 * c(0.5);
-        let t501 = base_rotation[0][1] * parameters.actuator_axis[3][1];
-        let t502 = mul_add(base_rotation[0][0], parameters.actuator_axis[3][0], t501);
-        let t503 = mul_add(base_rotation[0][2], parameters.actuator_axis[3][2], t502);
-        let t504 = mul_sub(t266, t500, t327 * t503);
-        let t505 = t266 * t504;
-        let t506 = c(2.0) * t505;
-        let t507 = base_rotation[1][1] * parameters.actuator_axis[3][1];
-        let t508 = mul_add(base_rotation[1][0], parameters.actuator_axis[3][0], t507);
-        let t509 = mul_add(base_rotation[1][2], parameters.actuator_axis[3][2], t508);
-        let t510 = mul_sub(t268, t500, t327 * t509);
-        let t511 = mul_add(t266, t510, t268 * t504);
-        let t512 = base_rotation[2][1] * parameters.actuator_axis[3][1];
-        let t513 = mul_add(base_rotation[2][0], parameters.actuator_axis[3][0], t512);
-        let t514 = mul_add(base_rotation[2][2], parameters.actuator_axis[3][2], t513);
-        let t515 = mul_sub(t270, t500, t327 * t514);
-        let t516 = mul_add(t266, t515, t270 * t504);
-        let t517 = t268 * t510;
-        let t518 = c(2.0) * t517;
-        let t519 = mul_add(t268, t515, t270 * t510);
-        let t520 = t270 * t515;
-        let t521 = c(2.0) * t520;
+        let t512 = c(1.0) / t328;
+        let t513 = t327 * t512;
+        let t514 = base_rotation[0][1] * parameters.actuator_axis[3][1];
+        let t515 = mul_add(base_rotation[0][0], parameters.actuator_axis[3][0], t514);
+        let t516 = mul_add(base_rotation[0][2], parameters.actuator_axis[3][2], t515);
+        let t517 = neg_mul_add(t513, t516, t266);
+        let t518 = t328 * t517;
+        let t519 = t512 * (t327 * t327);
+        let t520 = t516 * t519;
+        let t521 = mul_sub(t517, t518, t516 * t520);
+        let t522 = base_rotation[1][1] * parameters.actuator_axis[3][1];
+        let t523 = mul_add(base_rotation[1][0], parameters.actuator_axis[3][0], t522);
+        let t524 = mul_add(base_rotation[1][2], parameters.actuator_axis[3][2], t523);
+        let t525 = neg_mul_add(t513, t524, t268);
+        let t526 = mul_sub(t518, t525, t520 * t524);
+        let t527 = base_rotation[2][1] * parameters.actuator_axis[3][1];
+        let t528 = mul_add(base_rotation[2][0], parameters.actuator_axis[3][0], t527);
+        let t529 = mul_add(base_rotation[2][2], parameters.actuator_axis[3][2], t528);
+        let t530 = neg_mul_add(t513, t529, t270);
+        let t531 = mul_sub(t518, t530, t520 * t529);
+        let t532 = t328 * t525;
+        let t533 = t519 * t524;
+        let t534 = mul_sub(t525, t532, t524 * t533);
+        let t535 = mul_sub(t530, t532, t529 * t533);
+        let t536 = mul_sub(t530, t328 * t530, t529 * (t519 * t529));
         // leg 5: mass matrix of the leg in the speeds of its joint
-        let t522 = t335 * c(0.5);
-        let t523 = base_rotation[0][1] * parameters.actuator_axis[4][1];
-        let t524 = mul_add(base_rotation[0][0], parameters.actuator_axis[4][0], t523);
-        let t525 = mul_add(base_rotation[0][2], parameters.actuator_axis[4][2], t524);
-        let t526 = mul_sub(t272, t522, t334 * t525);
-        let t527 = t272 * t526;
-        let t528 = c(2.0) * t527;
-        let t529 = base_rotation[1][1] * parameters.actuator_axis[4][1];
-        let t530 = mul_add(base_rotation[1][0], parameters.actuator_axis[4][0], t529);
-        let t531 = mul_add(base_rotation[1][2], parameters.actuator_axis[4][2], t530);
-        let t532 = mul_sub(t274, t522, t334 * t531);
-        let t533 = mul_add(t272, t532, t274 * t526);
-        let t534 = base_rotation[2][1] * parameters.actuator_axis[4][1];
-        let t535 = mul_add(base_rotation[2][0], parameters.actuator_axis[4][0], t534);
-        let t536 = mul_add(base_rotation[2][2], parameters.actuator_axis[4][2], t535);
-        let t537 = mul_sub(t276, t522, t334 * t536);
-        let t538 = mul_add(t272, t537, t276 * t526);
-        let t539 = t274 * t532;
-        let t540 = c(2.0) * t539;
-        let t541 = mul_add(t274, t537, t276 * t532);
-        let t542 = t276 * t537;
-        let t543 = c(2.0) * t542;
+        let t537 = c(1.0) / t335;
+        let t538 = t334 * t537;
+        let t539 = base_rotation[0][1] * parameters.actuator_axis[4][1];
+        let t540 = mul_add(base_rotation[0][0], parameters.actuator_axis[4][0], t539);
+        let t541 = mul_add(base_rotation[0][2], parameters.actuator_axis[4][2], t540);
+        let t542 = neg_mul_add(t538, t541, t272);
+        let t543 = t335 * t542;
+        let t544 = t537 * (t334 * t334);
+        let t545 = t541 * t544;
+        let t546 = mul_sub(t542, t543, t541 * t545);
+        let t547 = base_rotation[1][1] * parameters.actuator_axis[4][1];
+        let t548 = mul_add(base_rotation[1][0], parameters.actuator_axis[4][0], t547);
+        let t549 = mul_add(base_rotation[1][2], parameters.actuator_axis[4][2], t548);
+        let t550 = neg_mul_add(t538, t549, t274);
+        let t551 = mul_sub(t543, t550, t545 * t549);
+        let t552 = base_rotation[2][1] * parameters.actuator_axis[4][1];
+        let t553 = mul_add(base_rotation[2][0], parameters.actuator_axis[4][0], t552);
+        let t554 = mul_add(base_rotation[2][2], parameters.actuator_axis[4][2], t553);
+        let t555 = neg_mul_add(t538, t554, t276);
+        let t556 = mul_sub(t543, t555, t545 * t554);
+        let t557 = t335 * t550;
+        let t558 = t544 * t549;
+        let t559 = mul_sub(t550, t557, t549 * t558);
+        let t560 = mul_sub(t555, t557, t554 * t558);
+        let t561 = mul_sub(t555, t335 * t555, t554 * (t544 * t554));
         // leg 6: mass matrix of the leg in the speeds of its joint
-        let t544 = t342 * c(0.5);
-        let t545 = base_rotation[0][1] * parameters.actuator_axis[5][1];
-        let t546 = mul_add(base_rotation[0][0], parameters.actuator_axis[5][0], t545);
-        let t547 = mul_add(base_rotation[0][2], parameters.actuator_axis[5][2], t546);
-        let t548 = mul_sub(t278, t544, t341 * t547);
-        let t549 = t278 * t548;
-        let t550 = c(2.0) * t549;
-        let t551 = base_rotation[1][1] * parameters.actuator_axis[5][1];
-        let t552 = mul_add(base_rotation[1][0], parameters.actuator_axis[5][0], t551);
-        let t553 = mul_add(base_rotation[1][2], parameters.actuator_axis[5][2], t552);
-        let t554 = mul_sub(t280, t544, t341 * t553);
-        let t555 = mul_add(t278, t554, t280 * t548);
-        let t556 = base_rotation[2][1] * parameters.actuator_axis[5][1];
-        let t557 = mul_add(base_rotation[2][0], parameters.actuator_axis[5][0], t556);
-        let t558 = mul_add(base_rotation[2][2], parameters.actuator_axis[5][2], t557);
-        let t559 = mul_sub(t282, t544, t341 * t558);
-        let t560 = mul_add(t278, t559, t282 * t548);
-        let t561 = t280 * t554;
-        let t562 = c(2.0) * t561;
-        let t563 = mul_add(t280, t559, t282 * t554);
-        let t564 = t282 * t559;
-        let t565 = c(2.0) * t564;
+        let t562 = c(1.0) / t342;
+        let t563 = t341 * t562;
+        let t564 = base_rotation[0][1] * parameters.actuator_axis[5][1];
+        let t565 = mul_add(base_rotation[0][0], parameters.actuator_axis[5][0], t564);
+        let t566 = mul_add(base_rotation[0][2], parameters.actuator_axis[5][2], t565);
+        let t567 = neg_mul_add(t563, t566, t278);
+        let t568 = t342 * t567;
+        let t569 = t562 * (t341 * t341);
+        let t570 = t566 * t569;
+        let t571 = mul_sub(t567, t568, t566 * t570);
+        let t572 = base_rotation[1][1] * parameters.actuator_axis[5][1];
+        let t573 = mul_add(base_rotation[1][0], parameters.actuator_axis[5][0], t572);
+        let t574 = mul_add(base_rotation[1][2], parameters.actuator_axis[5][2], t573);
+        let t575 = neg_mul_add(t563, t574, t280);
+        let t576 = mul_sub(t568, t575, t570 * t574);
+        let t577 = base_rotation[2][1] * parameters.actuator_axis[5][1];
+        let t578 = mul_add(base_rotation[2][0], parameters.actuator_axis[5][0], t577);
+        let t579 = mul_add(base_rotation[2][2], parameters.actuator_axis[5][2], t578);
+        let t580 = neg_mul_add(t563, t579, t282);
+        let t581 = mul_sub(t568, t580, t570 * t579);
+        let t582 = t342 * t575;
+        let t583 = t569 * t574;
+        let t584 = mul_sub(t575, t582, t574 * t583);
+        let t585 = mul_sub(t580, t582, t579 * t583);
+        let t586 = mul_sub(t580, t342 * t580, t579 * (t569 * t579));
         // mass matrix of the legs
-        let t566 = mul_add(c(2.0), t483, mul_add(c(2.0), t442, t464));
-        let t567 = mul_add(c(2.0), t527, mul_add(c(2.0), t505, t566));
-        let t568 = mul_add(c(2.0), t549, t567);
-        let t569 = t555 + (t533 + (t511 + (t489 + (t448 + t469))));
-        mass_matrix_p[0][1] = t569;
-        mass_matrix_p[1][0] = t569;
-        let t570 = t560 + (t538 + (t516 + (t494 + (t453 + t474))));
-        mass_matrix_p[0][2] = t570;
-        mass_matrix_p[2][0] = t570;
-        let t571 = mul_sub(t75, t469, t72 * t474);
-        let t572 = mul_sub(t54, t448, t51 * t453) + t571;
-        let t573 = t572 + mul_sub(t96, t489, t93 * t494);
-        let t574 = t573 + mul_sub(t117, t511, t114 * t516);
-        let t575 = t574 + mul_sub(t138, t533, t135 * t538);
-        let t576 = t575 + mul_sub(t159, t555, t156 * t560);
-        let t577 = mul_sub(t153, t560, t159 * t550);
-        let t578 = mul_sub(t48, t453, t54 * t443);
-        let t579 = mul_sub(t69, t474, t75 * t464);
-        let t580 = mul_sub(t90, t494, t96 * t484);
-        let t581 = mul_sub(t111, t516, t117 * t506);
-        let t582 = mul_sub(t132, t538, t138 * t528);
-        let t583 = t578 + t579 + t580 + t581 + t582 + t577;
-        let t584 = mul_sub(t156, t550, t153 * t555);
-        let t585 = mul_sub(t51, t443, t48 * t448);
-        let t586 = mul_sub(t72, t464, t69 * t469);
-        let t587 = mul_sub(t93, t484, t90 * t489);
-        let t588 = mul_sub(t114, t506, t111 * t511);
-        let t589 = mul_sub(t135, t528, t132 * t533);
-        let t590 = t585 + t586 + t587 + t588 + t589 + t584;
-        let t591 = mul_add(c(2.0), t495, mul_add(c(2.0), t454, t475));
-        let t592 = mul_add(c(2.0), t539, mul_add(c(2.0), t517, t591));
-        let t593 = mul_add(c(2.0), t561, t592);
-        let t594 = t563 + (t541 + (t519 + (t497 + (t456 + t476))));
-        mass_matrix_p[1][2] = t594;
-        mass_matrix_p[2][1] = t594;
-        let t595 = mul_sub(t159, t562, t156 * t563);
-        let t596 = mul_sub(t54, t455, t51 * t456);
-        let t597 = mul_sub(t75, t475, t72 * t476);
-        let t598 = mul_sub(t96, t496, t93 * t497);
-        let t599 = mul_sub(t117, t518, t114 * t519);
-        let t600 = mul_sub(t138, t540, t135 * t541);
-        let t601 = t596 + t597 + t598 + t599 + t600 + t595;
-        let t602 = t153 * t563;
-        let t603 = mul_sub(t159, t555, t602);
-        let t604 = t48 * t456;
-        let t605 = mul_sub(t54, t448, t604);
-        let t606 = t69 * t476;
-        let t607 = mul_sub(t75, t469, t606);
-        let t608 = t90 * t497;
-        let t609 = mul_sub(t96, t489, t608);
-        let t610 = t111 * t519;
-        let t611 = mul_sub(t117, t511, t610);
-        let t612 = t132 * t541;
-        let t613 = mul_sub(t138, t533, t612);
-        let t614 = t605 + t607 + t609 + t611 + t613 + t603;
-        mass_matrix_p[1][4] = t614;
-        mass_matrix_p[4][1] = t614;
-        let t615 = mul_sub(t156, t555, t153 * t562);
-        let t616 = mul_sub(t51, t448, t48 * t455);
-        let t617 = mul_sub(t72, t469, t69 * t475);
-        let t618 = mul_sub(t93, t489, t90 * t496);
-        let t619 = mul_sub(t114, t511, t111 * t518);
-        let t620 = mul_sub(t135, t533, t132 * t540);
-        let t621 = t616 + t617 + t618 + t619 + t620 + t615;
-        let t622 = mul_add(c(2.0), t498, mul_add(c(2.0), t457, t477));
-        let t623 = mul_add(c(2.0), t542, mul_add(c(2.0), t520, t622));
-        let t624 = mul_add(c(2.0), t564, t623);
-        let t625 = mul_sub(t159, t563, t156 * t565);
-        let t626 = mul_sub(t54, t456, t51 * t458);
-        let t627 = mul_sub(t75, t476, t72 * t477);
-        let t628 = mul_sub(t96, t497, t93 * t499);
-        let t629 = mul_sub(t117, t519, t114 * t521);
-        let t630 = mul_sub(t138, t541, t135 * t543);
-        let t631 = t626 + t627 + t628 + t629 + t630 + t625;
-        let t632 = mul_sub(t153, t565, t159 * t560);
-        let t633 = mul_sub(t48, t458, t54 * t453);
-        let t634 = mul_sub(t69, t477, t75 * t474);
-        let t635 = mul_sub(t90, t499, t96 * t494);
-        let t636 = mul_sub(t111, t521, t117 * t516);
-        let t637 = mul_sub(t132, t543, t138 * t538);
+        let t587 = t571 + (t546 + (t521 + (t496 + (t446 + t471))));
+        let t588 = t576 + (t551 + (t526 + (t501 + (t451 + t476))));
+        mass_matrix_p[0][1] = t588;
+        mass_matrix_p[1][0] = t588;
+        let t589 = t581 + (t556 + (t531 + (t506 + (t456 + t481))));
+        mass_matrix_p[0][2] = t589;
+        mass_matrix_p[2][0] = t589;
+        let t590 = mul_sub(t75, t476, t72 * t481);
+        let t591 = mul_sub(t54, t451, t51 * t456) + t590;
+        let t592 = t591 + mul_sub(t96, t501, t93 * t506);
+        let t593 = t592 + mul_sub(t117, t526, t114 * t531);
+        let t594 = t593 + mul_sub(t138, t551, t135 * t556);
+        let t595 = t594 + mul_sub(t159, t576, t156 * t581);
+        let t596 = mul_sub(t153, t581, t159 * t571);
+        let t597 = mul_sub(t48, t456, t54 * t446);
+        let t598 = mul_sub(t69, t481, t75 * t471);
+        let t599 = mul_sub(t90, t506, t96 * t496);
+        let t600 = mul_sub(t111, t531, t117 * t521);
+        let t601 = mul_sub(t132, t556, t138 * t546);
+        let t602 = t597 + t598 + t599 + t600 + t601 + t596;
+        let t603 = mul_sub(t156, t571, t153 * t576);
+        let t604 = mul_sub(t51, t446, t48 * t451);
+        let t605 = mul_sub(t72, t471, t69 * t476);
+        let t606 = mul_sub(t93, t496, t90 * t501);
+        let t607 = mul_sub(t114, t521, t111 * t526);
+        let t608 = mul_sub(t135, t546, t132 * t551);
+        let t609 = t604 + t605 + t606 + t607 + t608 + t603;
+        let t610 = t584 + (t559 + (t534 + (t509 + (t459 + t484))));
+        let t611 = t585 + (t560 + (t535 + (t510 + (t460 + t485))));
+        mass_matrix_p[1][2] = t611;
+        mass_matrix_p[2][1] = t611;
+        let t612 = mul_sub(t159, t584, t156 * t585);
+        let t613 = mul_sub(t54, t459, t51 * t460);
+        let t614 = mul_sub(t75, t484, t72 * t485);
+        let t615 = mul_sub(t96, t509, t93 * t510);
+        let t616 = mul_sub(t117, t534, t114 * t535);
+        let t617 = mul_sub(t138, t559, t135 * t560);
+        let t618 = t613 + t614 + t615 + t616 + t617 + t612;
+        let t619 = t153 * t585;
+        let t620 = mul_sub(t159, t576, t619);
+        let t621 = t48 * t460;
+        let t622 = mul_sub(t54, t451, t621);
+        let t623 = t69 * t485;
+        let t624 = mul_sub(t75, t476, t623);
+        let t625 = t90 * t510;
+        let t626 = mul_sub(t96, t501, t625);
+        let t627 = t111 * t535;
+        let t628 = mul_sub(t117, t526, t627);
+        let t629 = t132 * t560;
+        let t630 = mul_sub(t138, t551, t629);
+        let t631 = t622 + t624 + t626 + t628 + t630 + t620;
+        mass_matrix_p[1][4] = t631;
+        mass_matrix_p[4][1] = t631;
+        let t632 = mul_sub(t156, t576, t153 * t584);
+        let t633 = mul_sub(t51, t451, t48 * t459);
+        let t634 = mul_sub(t72, t476, t69 * t484);
+        let t635 = mul_sub(t93, t501, t90 * t509);
+        let t636 = mul_sub(t114, t526, t111 * t534);
+        let t637 = mul_sub(t135, t551, t132 * t559);
         let t638 = t633 + t634 + t635 + t636 + t637 + t632;
-        let t639 = mul_sub(t156, t560, t602);
-        let t640 = mul_sub(t51, t453, t604);
-        let t641 = mul_sub(t72, t474, t606);
-        let t642 = mul_sub(t93, t494, t608);
-        let t643 = mul_sub(t114, t516, t610);
-        let t644 = mul_sub(t135, t538, t612);
-        let t645 = t640 + t641 + t642 + t643 + t644 + t639;
-        let t646 = mul_sub(t75, t597, t72 * t627);
-        let t647 = mul_sub(t54, t596, t51 * t626) + t646;
-        let t648 = t647 + mul_sub(t96, t598, t93 * t628);
-        let t649 = mul_add(t117, t599, mul_sub(t138, t600, t135 * t630));
-        let t650 = t648 + neg_mul_add(t114, t629, t649);
-        let t651 = mul_add(t75, t607, t72 * t634);
-        let t652 = mul_add(t54, t605, t51 * t633) + t651;
-        let t653 = t652 + mul_add(t96, t609, t93 * t635);
-        let t654 = mul_add(t117, t611, mul_add(t138, t613, t135 * t637));
-        let t655 = t653 + mul_add(t114, t636, t654);
-        let t656 = mul_sub(t75, t617, t72 * t641);
-        let t657 = mul_sub(t54, t616, t51 * t640) + t656;
-        let t658 = t657 + mul_sub(t96, t618, t93 * t642);
-        let t659 = mul_add(t117, t619, mul_sub(t138, t620, t135 * t644));
-        let t660 = t658 + neg_mul_add(t114, t643, t659);
-        let t661 = mul_sub(t69, t634, t75 * t579);
-        let t662 = mul_sub(t48, t633, t54 * t578) + t661;
-        let t663 = t662 + mul_sub(t90, t635, t96 * t580);
-        let t664 = mul_add(t111, t636, mul_sub(t132, t637, t138 * t582));
-        let t665 = t663 + neg_mul_add(t117, t581, t664);
-        let t666 = mul_sub(t69, t641, t75 * t586);
-        let t667 = mul_sub(t48, t640, t54 * t585) + t666;
-        let t668 = t667 + mul_sub(t90, t642, t96 * t587);
-        let t669 = mul_add(t111, t643, mul_sub(t132, t644, t138 * t589));
-        let t670 = t668 + neg_mul_add(t117, t588, t669);
-        let t671 = mul_sub(t72, t586, t69 * t617);
-        let t672 = mul_sub(t51, t585, t48 * t616) + t671;
-        let t673 = t672 + mul_sub(t93, t587, t90 * t618);
-        let t674 = mul_add(t114, t588, mul_sub(t135, t589, t132 * t620));
-        let t675 = t673 + neg_mul_add(t111, t619, t674);
-        let t676 = -t576;
-        mass_matrix_p[0][3] = t676;
-        mass_matrix_p[3][0] = t676;
-        let t677 = -t645;
-        mass_matrix_p[2][5] = t677;
-        mass_matrix_p[5][2] = t677;
+        let t639 = t586 + (t561 + (t536 + (t511 + (t461 + t486))));
+        let t640 = mul_sub(t159, t585, t156 * t586);
+        let t641 = mul_sub(t54, t460, t51 * t461);
+        let t642 = mul_sub(t75, t485, t72 * t486);
+        let t643 = mul_sub(t96, t510, t93 * t511);
+        let t644 = mul_sub(t117, t535, t114 * t536);
+        let t645 = mul_sub(t138, t560, t135 * t561);
+        let t646 = t641 + t642 + t643 + t644 + t645 + t640;
+        let t647 = mul_sub(t153, t586, t159 * t581);
+        let t648 = mul_sub(t48, t461, t54 * t456);
+        let t649 = mul_sub(t69, t486, t75 * t481);
+        let t650 = mul_sub(t90, t511, t96 * t506);
+        let t651 = mul_sub(t111, t536, t117 * t531);
+        let t652 = mul_sub(t132, t561, t138 * t556);
+        let t653 = t648 + t649 + t650 + t651 + t652 + t647;
+        let t654 = mul_sub(t156, t581, t619);
+        let t655 = mul_sub(t51, t456, t621);
+        let t656 = mul_sub(t72, t481, t623);
+        let t657 = mul_sub(t93, t506, t625);
+        let t658 = mul_sub(t114, t531, t627);
+        let t659 = mul_sub(t135, t556, t629);
+        let t660 = t655 + t656 + t657 + t658 + t659 + t654;
+        let t661 = mul_sub(t75, t614, t72 * t642);
+        let t662 = mul_sub(t54, t613, t51 * t641) + t661;
+        let t663 = t662 + mul_sub(t96, t615, t93 * t643);
+        let t664 = mul_add(t117, t616, mul_sub(t138, t617, t135 * t645));
+        let t665 = t663 + neg_mul_add(t114, t644, t664);
+        let t666 = mul_add(t75, t624, t72 * t649);
+        let t667 = mul_add(t54, t622, t51 * t648) + t666;
+        let t668 = t667 + mul_add(t96, t626, t93 * t650);
+        let t669 = mul_add(t117, t628, mul_add(t138, t630, t135 * t652));
+        let t670 = t668 + mul_add(t114, t651, t669);
+        let t671 = mul_sub(t75, t634, t72 * t656);
+        let t672 = mul_sub(t54, t633, t51 * t655) + t671;
+        let t673 = t672 + mul_sub(t96, t635, t93 * t657);
+        let t674 = mul_add(t117, t636, mul_sub(t138, t637, t135 * t659));
+        let t675 = t673 + neg_mul_add(t114, t658, t674);
+        let t676 = mul_sub(t69, t649, t75 * t598);
+        let t677 = mul_sub(t48, t648, t54 * t597) + t676;
+        let t678 = t677 + mul_sub(t90, t650, t96 * t599);
+        let t679 = mul_add(t111, t651, mul_sub(t132, t652, t138 * t601));
+        let t680 = t678 + neg_mul_add(t117, t600, t679);
+        let t681 = mul_sub(t69, t656, t75 * t605);
+        let t682 = mul_sub(t48, t655, t54 * t604) + t681;
+        let t683 = t682 + mul_sub(t90, t657, t96 * t606);
+        let t684 = mul_add(t111, t658, mul_sub(t132, t659, t138 * t608));
+        let t685 = t683 + neg_mul_add(t117, t607, t684);
+        let t686 = mul_sub(t72, t605, t69 * t634);
+        let t687 = mul_sub(t51, t604, t48 * t633) + t686;
+        let t688 = t687 + mul_sub(t93, t606, t90 * t635);
+        let t689 = mul_add(t114, t607, mul_sub(t135, t608, t132 * t637));
+        let t690 = t688 + neg_mul_add(t111, t636, t689);
+        let t691 = -t595;
+        mass_matrix_p[0][3] = t691;
+        mass_matrix_p[3][0] = t691;
+        let t692 = -t660;
+        mass_matrix_p[2][5] = t692;
+        mass_matrix_p[5][2] = t692;
         // mass matrix M_p of the platform
-        let t678 = t344 + t568;
-        mass_matrix_p[0][0] = t678;
-        let t679 = mul_add(platform_rotation[2][0], t351, platform_rotation[2][1] * t358);
-        let t680 = mul_add(platform_rotation[2][2], t365, t679);
-        let t681 = t583 - t680;
-        let t682 = mul_add(platform_rotation[1][0], t351, platform_rotation[1][1] * t358);
-        let t683 = mul_add(platform_rotation[1][2], t365, t682);
-        let t684 = t590 + t683;
-        let t685 = t344 + t593;
-        mass_matrix_p[1][1] = t685;
-        let t686 = t601 + t680;
-        let t687 = mul_add(platform_rotation[0][0], t351, platform_rotation[0][1] * t358);
-        let t688 = mul_add(platform_rotation[0][2], t365, t687);
-        let t689 = t621 - t688;
-        let t690 = t344 + t624;
-        mass_matrix_p[2][2] = t690;
-        let t691 = t631 - t683;
-        let t692 = t638 + t688;
-        let t693 = mul_add(platform_rotation[0][0], t401, platform_rotation[0][1] * t424);
-        let t694 = mul_add(platform_rotation[0][2], t436, t693);
-        let t695 = t436 + (t379 + t413);
-        let t696 = mul_add(platform_rotation[0][0], t379, platform_rotation[0][1] * t390);
-        let t697 = mul_add(platform_rotation[0][2], t401, t696);
-        let t698 = mul_add(platform_rotation[0][0], t390, platform_rotation[0][1] * t413);
-        let t699 = mul_add(platform_rotation[0][2], t424, t698);
-        let t700 = mul_add(platform_rotation[0][0], t697, platform_rotation[0][1] * t699);
-        let t701 = neg_mul_add(platform_rotation[0][2], t694, t695) - t700;
-        let t702 = t650 + neg_mul_add(t156, t625, mul_sub(t159, t595, t701));
-        mass_matrix_p[3][3] = t702;
-        let t703 = mul_add(platform_rotation[1][0], t697, platform_rotation[1][1] * t699);
-        let t704 = mul_sub(t159, t603, mul_add(platform_rotation[1][2], t694, t703));
-        let t705 = t655 + mul_add(t156, t632, t704);
-        let t706 = mul_add(platform_rotation[2][0], t697, platform_rotation[2][1] * t699);
-        let t707 = mul_add(t159, t615, mul_add(platform_rotation[2][2], t694, t706));
-        let t708 = t660 + neg_mul_add(t156, t639, t707);
-        mass_matrix_p[3][5] = t708;
-        mass_matrix_p[5][3] = t708;
-        let t709 = mul_add(platform_rotation[1][0], t401, platform_rotation[1][1] * t424);
-        let t710 = mul_add(platform_rotation[1][2], t436, t709);
-        let t711 = mul_add(platform_rotation[1][0], t379, platform_rotation[1][1] * t390);
-        let t712 = mul_add(platform_rotation[1][2], t401, t711);
-        let t713 = mul_add(platform_rotation[1][0], t390, platform_rotation[1][1] * t413);
-        let t714 = mul_add(platform_rotation[1][2], t424, t713);
-        let t715 = mul_add(platform_rotation[1][0], t712, platform_rotation[1][1] * t714);
-        let t716 = neg_mul_add(platform_rotation[1][2], t710, t695) - t715;
-        let t717 = t665 + neg_mul_add(t159, t577, mul_sub(t153, t632, t716));
-        mass_matrix_p[4][4] = t717;
-        let t718 = mul_add(platform_rotation[2][0], t712, platform_rotation[2][1] * t714);
-        let t719 = mul_add(t153, t639, mul_add(platform_rotation[2][2], t710, t718));
-        let t720 = t670 + neg_mul_add(t159, t584, t719);
-        mass_matrix_p[4][5] = t720;
-        mass_matrix_p[5][4] = t720;
-        let t721 = mul_add(platform_rotation[2][0], t401, platform_rotation[2][1] * t424);
-        let t722 = mul_add(platform_rotation[2][2], t436, t721);
-        let t723 = neg_mul_add(platform_rotation[2][2], t722, t695);
-        let t724 = mul_add(platform_rotation[2][0], t379, platform_rotation[2][1] * t390);
-        let t725 = mul_add(platform_rotation[2][2], t401, t724);
-        let t726 = mul_add(platform_rotation[2][0], t390, platform_rotation[2][1] * t413);
-        let t727 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t424, t726);
-        let t728 = t723 - mul_add(platform_rotation[2][0], t725, t727);
-        let t729 = t675 + neg_mul_add(t153, t615, mul_sub(t156, t584, t728));
-        mass_matrix_p[5][5] = t729;
-        let t730 = -t681;
-        mass_matrix_p[0][4] = t730;
-        mass_matrix_p[4][0] = t730;
-        let t731 = -t684;
-        mass_matrix_p[0][5] = t731;
-        mass_matrix_p[5][0] = t731;
-        let t732 = -t686;
-        mass_matrix_p[1][3] = t732;
-        mass_matrix_p[3][1] = t732;
-        let t733 = -t689;
-        mass_matrix_p[1][5] = t733;
-        mass_matrix_p[5][1] = t733;
-        let t734 = -t691;
-        mass_matrix_p[2][3] = t734;
-        mass_matrix_p[3][2] = t734;
-        let t735 = -t692;
-        mass_matrix_p[2][4] = t735;
-        mass_matrix_p[4][2] = t735;
-        let t736 = -t705;
-        mass_matrix_p[3][4] = t736;
-        mass_matrix_p[4][3] = t736;
+        let t693 = t344 + t587;
+        mass_matrix_p[0][0] = t693;
+        let t694 = mul_add(platform_rotation[2][0], t351, platform_rotation[2][1] * t358);
+        let t695 = mul_add(platform_rotation[2][2], t365, t694);
+        let t696 = t602 - t695;
+        let t697 = mul_add(platform_rotation[1][0], t351, platform_rotation[1][1] * t358);
+        let t698 = mul_add(platform_rotation[1][2], t365, t697);
+        let t699 = t609 + t698;
+        let t700 = t344 + t610;
+        mass_matrix_p[1][1] = t700;
+        let t701 = t618 + t695;
+        let t702 = mul_add(platform_rotation[0][0], t351, platform_rotation[0][1] * t358);
+        let t703 = mul_add(platform_rotation[0][2], t365, t702);
+        let t704 = t638 - t703;
+        let t705 = t344 + t639;
+        mass_matrix_p[2][2] = t705;
+        let t706 = t646 - t698;
+        let t707 = t653 + t703;
+        let t708 = mul_add(platform_rotation[0][0], t401, platform_rotation[0][1] * t424);
+        let t709 = mul_add(platform_rotation[0][2], t436, t708);
+        let t710 = t436 + (t379 + t413);
+        let t711 = mul_add(platform_rotation[0][0], t379, platform_rotation[0][1] * t390);
+        let t712 = mul_add(platform_rotation[0][2], t401, t711);
+        let t713 = mul_add(platform_rotation[0][0], t390, platform_rotation[0][1] * t413);
+        let t714 = mul_add(platform_rotation[0][2], t424, t713);
+        let t715 = mul_add(platform_rotation[0][0], t712, platform_rotation[0][1] * t714);
+        let t716 = neg_mul_add(platform_rotation[0][2], t709, t710) - t715;
+        let t717 = t665 + neg_mul_add(t156, t640, mul_sub(t159, t612, t716));
+        mass_matrix_p[3][3] = t717;
+        let t718 = mul_add(platform_rotation[1][0], t712, platform_rotation[1][1] * t714);
+        let t719 = mul_sub(t159, t620, mul_add(platform_rotation[1][2], t709, t718));
+        let t720 = t670 + mul_add(t156, t647, t719);
+        let t721 = mul_add(platform_rotation[2][0], t712, platform_rotation[2][1] * t714);
+        let t722 = mul_add(t159, t632, mul_add(platform_rotation[2][2], t709, t721));
+        let t723 = t675 + neg_mul_add(t156, t654, t722);
+        mass_matrix_p[3][5] = t723;
+        mass_matrix_p[5][3] = t723;
+        let t724 = mul_add(platform_rotation[1][0], t401, platform_rotation[1][1] * t424);
+        let t725 = mul_add(platform_rotation[1][2], t436, t724);
+        let t726 = mul_add(platform_rotation[1][0], t379, platform_rotation[1][1] * t390);
+        let t727 = mul_add(platform_rotation[1][2], t401, t726);
+        let t728 = mul_add(platform_rotation[1][0], t390, platform_rotation[1][1] * t413);
+        let t729 = mul_add(platform_rotation[1][2], t424, t728);
+        let t730 = mul_add(platform_rotation[1][0], t727, platform_rotation[1][1] * t729);
+        let t731 = neg_mul_add(platform_rotation[1][2], t725, t710) - t730;
+        let t732 = t680 + neg_mul_add(t159, t596, mul_sub(t153, t647, t731));
+        mass_matrix_p[4][4] = t732;
+        let t733 = mul_add(platform_rotation[2][0], t727, platform_rotation[2][1] * t729);
+        let t734 = mul_add(t153, t654, mul_add(platform_rotation[2][2], t725, t733));
+        let t735 = t685 + neg_mul_add(t159, t603, t734);
+        mass_matrix_p[4][5] = t735;
+        mass_matrix_p[5][4] = t735;
+        let t736 = mul_add(platform_rotation[2][0], t401, platform_rotation[2][1] * t424);
+        let t737 = mul_add(platform_rotation[2][2], t436, t736);
+        let t738 = neg_mul_add(platform_rotation[2][2], t737, t710);
+        let t739 = mul_add(platform_rotation[2][0], t379, platform_rotation[2][1] * t390);
+        let t740 = mul_add(platform_rotation[2][2], t401, t739);
+        let t741 = mul_add(platform_rotation[2][0], t390, platform_rotation[2][1] * t413);
+        let t742 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t424, t741);
+        let t743 = t738 - mul_add(platform_rotation[2][0], t740, t742);
+        let t744 = t690 + neg_mul_add(t153, t632, mul_sub(t156, t603, t743));
+        mass_matrix_p[5][5] = t744;
+        let t745 = -t696;
+        mass_matrix_p[0][4] = t745;
+        mass_matrix_p[4][0] = t745;
+        let t746 = -t699;
+        mass_matrix_p[0][5] = t746;
+        mass_matrix_p[5][0] = t746;
+        let t747 = -t701;
+        mass_matrix_p[1][3] = t747;
+        mass_matrix_p[3][1] = t747;
+        let t748 = -t704;
+        mass_matrix_p[1][5] = t748;
+        mass_matrix_p[5][1] = t748;
+        let t749 = -t706;
+        mass_matrix_p[2][3] = t749;
+        mass_matrix_p[3][2] = t749;
+        let t750 = -t707;
+        mass_matrix_p[2][4] = t750;
+        mass_matrix_p[4][2] = t750;
+        let t751 = -t720;
+        mass_matrix_p[3][4] = t751;
+        mass_matrix_p[4][3] = t751;
         // angular velocity of the base
-        let t737 = base_rotation[1][0] * base_velocity[4];
-        let t738 = mul_add(base_rotation[0][0], base_velocity[3], t737);
-        let t739 = mul_add(base_rotation[2][0], base_velocity[5], t738);
-        let t740 = base_rotation[1][1] * base_velocity[4];
-        let t741 = mul_add(base_rotation[0][1], base_velocity[3], t740);
-        let t742 = mul_add(base_rotation[2][1], base_velocity[5], t741);
-        let t743 = base_rotation[1][2] * base_velocity[4];
-        let t744 = mul_add(base_rotation[0][2], base_velocity[3], t743);
-        let t745 = mul_add(base_rotation[2][2], base_velocity[5], t744);
+        let t752 = base_rotation[1][0] * base_velocity[4];
+        let t753 = mul_add(base_rotation[0][0], base_velocity[3], t752);
+        let t754 = mul_add(base_rotation[2][0], base_velocity[5], t753);
+        let t755 = base_rotation[1][1] * base_velocity[4];
+        let t756 = mul_add(base_rotation[0][1], base_velocity[3], t755);
+        let t757 = mul_add(base_rotation[2][1], base_velocity[5], t756);
+        let t758 = base_rotation[1][2] * base_velocity[4];
+        let t759 = mul_add(base_rotation[0][2], base_velocity[3], t758);
+        let t760 = mul_add(base_rotation[2][2], base_velocity[5], t759);
         // angular velocity of the platform
-        let t746 = base_rotation[1][0] * platform_velocity[4];
-        let t747 = mul_add(base_rotation[0][0], platform_velocity[3], t746);
-        let t748 = mul_add(base_rotation[2][0], platform_velocity[5], t747);
-        let t749 = base_rotation[1][1] * platform_velocity[4];
-        let t750 = mul_add(base_rotation[0][1], platform_velocity[3], t749);
-        let t751 = mul_add(base_rotation[2][1], platform_velocity[5], t750);
-        let t752 = base_rotation[1][2] * platform_velocity[4];
-        let t753 = mul_add(base_rotation[0][2], platform_velocity[3], t752);
-        let t754 = mul_add(base_rotation[2][2], platform_velocity[5], t753);
+        let t761 = base_rotation[1][0] * platform_velocity[4];
+        let t762 = mul_add(base_rotation[0][0], platform_velocity[3], t761);
+        let t763 = mul_add(base_rotation[2][0], platform_velocity[5], t762);
+        let t764 = base_rotation[1][1] * platform_velocity[4];
+        let t765 = mul_add(base_rotation[0][1], platform_velocity[3], t764);
+        let t766 = mul_add(base_rotation[2][1], platform_velocity[5], t765);
+        let t767 = base_rotation[1][2] * platform_velocity[4];
+        let t768 = mul_add(base_rotation[0][2], platform_velocity[3], t767);
+        let t769 = mul_add(base_rotation[2][2], platform_velocity[5], t768);
         // angular velocity of the platform relative to the base
-        let t755 = t739 - t748;
-        let t756 = t742 - t751;
-        let t757 = t745 - t754;
+        let t770 = t754 - t763;
+        let t771 = t757 - t766;
+        let t772 = t760 - t769;
         // velocity of the platform origin relative to the base
-        let t758 = base_velocity[2] - platform_velocity[2];
-        let t759 = base_velocity[0] - platform_velocity[0];
-        let t760 = base_velocity[1] - platform_velocity[1];
-        let t761 = mul_add(base_rotation[0][0], t759, base_rotation[1][0] * t760);
-        let t762 = neg_mul_add(t36, t742, mul_add(base_rotation[2][0], t758, t761));
-        let t763 = mul_add(t34, t745, t762);
-        let t764 = mul_add(base_rotation[0][1], t759, base_rotation[1][1] * t760);
-        let t765 = neg_mul_add(t32, t745, mul_add(base_rotation[2][1], t758, t764));
-        let t766 = mul_add(t36, t739, t765);
-        let t767 = mul_add(base_rotation[0][2], t759, base_rotation[1][2] * t760);
-        let t768 = neg_mul_add(t34, t739, mul_add(base_rotation[2][2], t758, t767));
-        let t769 = mul_add(t32, t742, t768);
+        let t773 = base_velocity[2] - platform_velocity[2];
+        let t774 = base_velocity[0] - platform_velocity[0];
+        let t775 = base_velocity[1] - platform_velocity[1];
+        let t776 = mul_add(base_rotation[0][0], t774, base_rotation[1][0] * t775);
+        let t777 = neg_mul_add(t36, t757, mul_add(base_rotation[2][0], t773, t776));
+        let t778 = mul_add(t34, t760, t777);
+        let t779 = mul_add(base_rotation[0][1], t774, base_rotation[1][1] * t775);
+        let t780 = neg_mul_add(t32, t760, mul_add(base_rotation[2][1], t773, t779));
+        let t781 = mul_add(t36, t754, t780);
+        let t782 = mul_add(base_rotation[0][2], t774, base_rotation[1][2] * t775);
+        let t783 = neg_mul_add(t34, t754, mul_add(base_rotation[2][2], t773, t782));
+        let t784 = mul_add(t32, t757, t783);
         // leg 1: velocity of the platform joint relative to the base
-        let t770 = neg_mul_add(t42, t757, mul_add(t45, t756, t763));
-        let t771 = neg_mul_add(t45, t755, mul_add(t39, t757, t766));
-        let t772 = neg_mul_add(t39, t756, mul_add(t42, t755, t769));
+        let t785 = neg_mul_add(t42, t772, mul_add(t45, t771, t778));
+        let t786 = neg_mul_add(t45, t770, mul_add(t39, t772, t781));
+        let t787 = neg_mul_add(t39, t771, mul_add(t42, t770, t784));
         // leg 2: velocity of the platform joint relative to the base
-        let t773 = neg_mul_add(t63, t757, mul_add(t66, t756, t763));
-        let t774 = neg_mul_add(t66, t755, mul_add(t60, t757, t766));
-        let t775 = neg_mul_add(t60, t756, mul_add(t63, t755, t769));
+        let t788 = neg_mul_add(t63, t772, mul_add(t66, t771, t778));
+        let t789 = neg_mul_add(t66, t770, mul_add(t60, t772, t781));
+        let t790 = neg_mul_add(t60, t771, mul_add(t63, t770, t784));
         // leg 3: velocity of the platform joint relative to the base
-        let t776 = neg_mul_add(t84, t757, mul_add(t87, t756, t763));
-        let t777 = neg_mul_add(t87, t755, mul_add(t81, t757, t766));
-        let t778 = neg_mul_add(t81, t756, mul_add(t84, t755, t769));
+        let t791 = neg_mul_add(t84, t772, mul_add(t87, t771, t778));
+        let t792 = neg_mul_add(t87, t770, mul_add(t81, t772, t781));
+        let t793 = neg_mul_add(t81, t771, mul_add(t84, t770, t784));
         // leg 4: velocity of the platform joint relative to the base
-        let t779 = neg_mul_add(t105, t757, mul_add(t108, t756, t763));
-        let t780 = neg_mul_add(t108, t755, mul_add(t102, t757, t766));
-        let t781 = neg_mul_add(t102, t756, mul_add(t105, t755, t769));
+        let t794 = neg_mul_add(t105, t772, mul_add(t108, t771, t778));
+        let t795 = neg_mul_add(t108, t770, mul_add(t102, t772, t781));
+        let t796 = neg_mul_add(t102, t771, mul_add(t105, t770, t784));
         // leg 5: velocity of the platform joint relative to the base
-        let t782 = neg_mul_add(t126, t757, mul_add(t129, t756, t763));
-        let t783 = neg_mul_add(t129, t755, mul_add(t123, t757, t766));
-        let t784 = neg_mul_add(t123, t756, mul_add(t126, t755, t769));
+        let t797 = neg_mul_add(t126, t772, mul_add(t129, t771, t778));
+        let t798 = neg_mul_add(t129, t770, mul_add(t123, t772, t781));
+        let t799 = neg_mul_add(t123, t771, mul_add(t126, t770, t784));
         // leg 6: velocity of the platform joint relative to the base
-        let t785 = neg_mul_add(t147, t757, mul_add(t150, t756, t763));
-        let t786 = neg_mul_add(t150, t755, mul_add(t144, t757, t766));
-        let t787 = neg_mul_add(t144, t756, mul_add(t147, t755, t769));
+        let t800 = neg_mul_add(t147, t772, mul_add(t150, t771, t778));
+        let t801 = neg_mul_add(t150, t770, mul_add(t144, t772, t781));
+        let t802 = neg_mul_add(t144, t771, mul_add(t147, t770, t784));
         // leg 1: rate of the offset from the actuator axis
-        let t788 = parameters.actuator_axis[0][1] * t771;
-        let t789 = mul_add(parameters.actuator_axis[0][0], t770, t788);
-        let t790 = mul_add(parameters.actuator_axis[0][2], t772, t789);
-        let t791 = neg_mul_add(parameters.actuator_axis[0][0], t790, t770);
-        let t792 = neg_mul_add(parameters.actuator_axis[0][1], t790, t771);
-        let t793 = neg_mul_add(parameters.actuator_axis[0][2], t790, t772);
+        let t803 = parameters.actuator_axis[0][1] * t786;
+        let t804 = mul_add(parameters.actuator_axis[0][0], t785, t803);
+        let t805 = mul_add(parameters.actuator_axis[0][2], t787, t804);
+        let t806 = neg_mul_add(parameters.actuator_axis[0][0], t805, t785);
+        let t807 = neg_mul_add(parameters.actuator_axis[0][1], t805, t786);
+        let t808 = neg_mul_add(parameters.actuator_axis[0][2], t805, t787);
         // leg 1: rate of the rod's extent along the actuator axis
-        let t794 = mul_add(t231, t772, mul_add(t229, t770, t230 * t771));
-        let t795 = t790 - t794;
-        actuator_velocity[0] = -t794;
+        let t809 = mul_add(t231, t787, mul_add(t229, t785, t230 * t786));
+        let t810 = t805 - t809;
+        actuator_velocity[0] = -t809;
         // leg 2: rate of the offset from the actuator axis
-        let t796 = parameters.actuator_axis[1][1] * t774;
-        let t797 = mul_add(parameters.actuator_axis[1][0], t773, t796);
-        let t798 = mul_add(parameters.actuator_axis[1][2], t775, t797);
-        let t799 = neg_mul_add(parameters.actuator_axis[1][0], t798, t773);
-        let t800 = neg_mul_add(parameters.actuator_axis[1][1], t798, t774);
-        let t801 = neg_mul_add(parameters.actuator_axis[1][2], t798, t775);
+        let t811 = parameters.actuator_axis[1][1] * t789;
+        let t812 = mul_add(parameters.actuator_axis[1][0], t788, t811);
+        let t813 = mul_add(parameters.actuator_axis[1][2], t790, t812);
+        let t814 = neg_mul_add(parameters.actuator_axis[1][0], t813, t788);
+        let t815 = neg_mul_add(parameters.actuator_axis[1][1], t813, t789);
+        let t816 = neg_mul_add(parameters.actuator_axis[1][2], t813, t790);
         // leg 2: rate of the rod's extent along the actuator axis
-        let t802 = mul_add(t234, t775, mul_add(t232, t773, t233 * t774));
-        let t803 = t798 - t802;
-        actuator_velocity[1] = -t802;
+        let t817 = mul_add(t234, t790, mul_add(t232, t788, t233 * t789));
+        let t818 = t813 - t817;
+        actuator_velocity[1] = -t817;
         // leg 3: rate of the offset from the actuator axis
-        let t804 = parameters.actuator_axis[2][1] * t777;
-        let t805 = mul_add(parameters.actuator_axis[2][0], t776, t804);
-        let t806 = mul_add(parameters.actuator_axis[2][2], t778, t805);
-        let t807 = neg_mul_add(parameters.actuator_axis[2][0], t806, t776);
-        let t808 = neg_mul_add(parameters.actuator_axis[2][1], t806, t777);
-        let t809 = neg_mul_add(parameters.actuator_axis[2][2], t806, t778);
+        let t819 = parameters.actuator_axis[2][1] * t792;
+        let t820 = mul_add(parameters.actuator_axis[2][0], t791, t819);
+        let t821 = mul_add(parameters.actuator_axis[2][2], t793, t820);
+        let t822 = neg_mul_add(parameters.actuator_axis[2][0], t821, t791);
+        let t823 = neg_mul_add(parameters.actuator_axis[2][1], t821, t792);
+        let t824 = neg_mul_add(parameters.actuator_axis[2][2], t821, t793);
         // leg 3: rate of the rod's extent along the actuator axis
-        let t810 = mul_add(t237, t778, mul_add(t235, t776, t236 * t777));
-        let t811 = t806 - t810;
-        actuator_velocity[2] = -t810;
+        let t825 = mul_add(t237, t793, mul_add(t235, t791, t236 * t792));
+        let t826 = t821 - t825;
+        actuator_velocity[2] = -t825;
         // leg 4: rate of the offset from the actuator axis
-        let t812 = parameters.actuator_axis[3][1] * t780;
-        let t813 = mul_add(parameters.actuator_axis[3][0], t779, t812);
-        let t814 = mul_add(parameters.actuator_axis[3][2], t781, t813);
-        let t815 = neg_mul_add(parameters.actuator_axis[3][0], t814, t779);
-        let t816 = neg_mul_add(parameters.actuator_axis[3][1], t814, t780);
-        let t817 = neg_mul_add(parameters.actuator_axis[3][2], t814, t781);
+        let t827 = parameters.actuator_axis[3][1] * t795;
+        let t828 = mul_add(parameters.actuator_axis[3][0], t794, t827);
+        let t829 = mul_add(parameters.actuator_axis[3][2], t796, t828);
+        let t830 = neg_mul_add(parameters.actuator_axis[3][0], t829, t794);
+        let t831 = neg_mul_add(parameters.actuator_axis[3][1], t829, t795);
+        let t832 = neg_mul_add(parameters.actuator_axis[3][2], t829, t796);
         // leg 4: rate of the rod's extent along the actuator axis
-        let t818 = mul_add(t240, t781, mul_add(t238, t779, t239 * t780));
-        let t819 = t814 - t818;
-        actuator_velocity[3] = -t818;
+        let t833 = mul_add(t240, t796, mul_add(t238, t794, t239 * t795));
+        let t834 = t829 - t833;
+        actuator_velocity[3] = -t833;
         // leg 5: rate of the offset from the actuator axis
-        let t820 = parameters.actuator_axis[4][1] * t783;
-        let t821 = mul_add(parameters.actuator_axis[4][0], t782, t820);
-        let t822 = mul_add(parameters.actuator_axis[4][2], t784, t821);
-        let t823 = neg_mul_add(parameters.actuator_axis[4][0], t822, t782);
-        let t824 = neg_mul_add(parameters.actuator_axis[4][1], t822, t783);
-        let t825 = neg_mul_add(parameters.actuator_axis[4][2], t822, t784);
+        let t835 = parameters.actuator_axis[4][1] * t798;
+        let t836 = mul_add(parameters.actuator_axis[4][0], t797, t835);
+        let t837 = mul_add(parameters.actuator_axis[4][2], t799, t836);
+        let t838 = neg_mul_add(parameters.actuator_axis[4][0], t837, t797);
+        let t839 = neg_mul_add(parameters.actuator_axis[4][1], t837, t798);
+        let t840 = neg_mul_add(parameters.actuator_axis[4][2], t837, t799);
         // leg 5: rate of the rod's extent along the actuator axis
-        let t826 = mul_add(t243, t784, mul_add(t241, t782, t242 * t783));
-        let t827 = t822 - t826;
-        actuator_velocity[4] = -t826;
+        let t841 = mul_add(t243, t799, mul_add(t241, t797, t242 * t798));
+        let t842 = t837 - t841;
+        actuator_velocity[4] = -t841;
         // leg 6: rate of the offset from the actuator axis
-        let t828 = parameters.actuator_axis[5][1] * t786;
-        let t829 = mul_add(parameters.actuator_axis[5][0], t785, t828);
-        let t830 = mul_add(parameters.actuator_axis[5][2], t787, t829);
-        let t831 = neg_mul_add(parameters.actuator_axis[5][0], t830, t785);
-        let t832 = neg_mul_add(parameters.actuator_axis[5][1], t830, t786);
-        let t833 = neg_mul_add(parameters.actuator_axis[5][2], t830, t787);
+        let t843 = parameters.actuator_axis[5][1] * t801;
+        let t844 = mul_add(parameters.actuator_axis[5][0], t800, t843);
+        let t845 = mul_add(parameters.actuator_axis[5][2], t802, t844);
+        let t846 = neg_mul_add(parameters.actuator_axis[5][0], t845, t800);
+        let t847 = neg_mul_add(parameters.actuator_axis[5][1], t845, t801);
+        let t848 = neg_mul_add(parameters.actuator_axis[5][2], t845, t802);
         // leg 6: rate of the rod's extent along the actuator axis
-        let t834 = mul_add(t246, t787, mul_add(t244, t785, t245 * t786));
-        let t835 = t830 - t834;
-        actuator_velocity[5] = -t834;
+        let t849 = mul_add(t246, t802, mul_add(t244, t800, t245 * t801));
+        let t850 = t845 - t849;
+        actuator_velocity[5] = -t849;
         // acceleration of the base origin less gravity
-        let t836 = base_acceleration[2] - parameters.gravity[2];
-        let t837 = base_acceleration[0] - parameters.gravity[0];
-        let t838 = base_acceleration[1] - parameters.gravity[1];
-        let t839 = mul_add(base_rotation[0][0], t837, base_rotation[1][0] * t838);
-        let t840 = mul_add(base_rotation[2][0], t836, t839);
-        let t841 = mul_add(base_rotation[0][1], t837, base_rotation[1][1] * t838);
-        let t842 = mul_add(base_rotation[2][1], t836, t841);
-        let t843 = mul_add(base_rotation[0][2], t837, base_rotation[1][2] * t838);
-        let t844 = mul_add(base_rotation[2][2], t836, t843);
+        let t851 = base_acceleration[2] - parameters.gravity[2];
+        let t852 = base_acceleration[0] - parameters.gravity[0];
+        let t853 = base_acceleration[1] - parameters.gravity[1];
+        let t854 = mul_add(base_rotation[0][0], t852, base_rotation[1][0] * t853);
+        let t855 = mul_add(base_rotation[2][0], t851, t854);
+        let t856 = mul_add(base_rotation[0][1], t852, base_rotation[1][1] * t853);
+        let t857 = mul_add(base_rotation[2][1], t851, t856);
+        let t858 = mul_add(base_rotation[0][2], t852, base_rotation[1][2] * t853);
+        let t859 = mul_add(base_rotation[2][2], t851, t858);
         // angular acceleration of the base
-        let t845 = base_rotation[1][0] * base_acceleration[4];
-        let t846 = mul_add(base_rotation[0][0], base_acceleration[3], t845);
-        let t847 = mul_add(base_rotation[2][0], base_acceleration[5], t846);
-        let t848 = base_rotation[1][1] * base_acceleration[4];
-        let t849 = mul_add(base_rotation[0][1], base_acceleration[3], t848);
-        let t850 = mul_add(base_rotation[2][1], base_acceleration[5], t849);
-        let t851 = base_rotation[1][2] * base_acceleration[4];
-        let t852 = mul_add(base_rotation[0][2], base_acceleration[3], t851);
-        let t853 = mul_add(base_rotation[2][2], base_acceleration[5], t852);
+        let t860 = base_rotation[1][0] * base_acceleration[4];
+        let t861 = mul_add(base_rotation[0][0], base_acceleration[3], t860);
+        let t862 = mul_add(base_rotation[2][0], base_acceleration[5], t861);
+        let t863 = base_rotation[1][1] * base_acceleration[4];
+        let t864 = mul_add(base_rotation[0][1], base_acceleration[3], t863);
+        let t865 = mul_add(base_rotation[2][1], base_acceleration[5], t864);
+        let t866 = base_rotation[1][2] * base_acceleration[4];
+        let t867 = mul_add(base_rotation[0][2], base_acceleration[3], t866);
+        let t868 = mul_add(base_rotation[2][2], base_acceleration[5], t867);
         // acceleration per base coordinate of points that move with the base
-        let t854 = mul_add(t742, t742, t745 * t745);
-        let t855 = neg_mul_add(t739, t742, t853);
-        let t856 = mul_add(t739, t745, t850);
-        let t857 = mul_add(t739, t742, t853);
-        let t858 = t739 * t739;
-        let t859 = mul_add(t745, t745, t858);
-        let t860 = neg_mul_add(t742, t745, t847);
-        let t861 = neg_mul_add(t739, t745, t850);
-        let t862 = mul_add(t742, t745, t847);
-        let t863 = mul_add(t742, t742, t858);
+        let t869 = mul_add(t757, t757, t760 * t760);
+        let t870 = neg_mul_add(t754, t757, t868);
+        let t871 = mul_add(t754, t760, t865);
+        let t872 = mul_add(t754, t757, t868);
+        let t873 = t754 * t754;
+        let t874 = mul_add(t760, t760, t873);
+        let t875 = neg_mul_add(t757, t760, t862);
+        let t876 = neg_mul_add(t754, t760, t865);
+        let t877 = mul_add(t757, t760, t862);
+        let t878 = mul_add(t757, t757, t873);
         // acceleration of the platform origin less gravity
-        let t864 = base_rotation[1][0] * parameters.gravity[1];
-        let t865 = mul_add(base_rotation[0][0], parameters.gravity[0], t864);
-        let t866 = mul_add(base_rotation[2][0], parameters.gravity[2], t865);
-        let t867 = base_rotation[1][1] * parameters.gravity[1];
-        let t868 = mul_add(base_rotation[0][1], parameters.gravity[0], t867);
-        let t869 = mul_add(base_rotation[2][1], parameters.gravity[2], t868);
-        let t870 = base_rotation[1][2] * parameters.gravity[1];
-        let t871 = mul_add(base_rotation[0][2], parameters.gravity[0], t870);
-        let t872 = mul_add(base_rotation[2][2], parameters.gravity[2], t871);
+        let t879 = base_rotation[1][0] * parameters.gravity[1];
+        let t880 = mul_add(base_rotation[0][0], parameters.gravity[0], t879);
+        let t881 = mul_add(base_rotation[2][0], parameters.gravity[2], t880);
+        let t882 = base_rotation[1][1] * parameters.gravity[1];
+        let t883 = mul_add(base_rotation[0][1], parameters.gravity[0], t882);
+        let t884 = mul_add(base_rotation[2][1], parameters.gravity[2], t883);
+        let t885 = base_rotation[1][2] * parameters.gravity[1];
+        let t886 = mul_add(base_rotation[0][2], parameters.gravity[0], t885);
+        let t887 = mul_add(base_rotation[2][2], parameters.gravity[2], t886);
         // acceleration per platform coordinate of points of the platform
-        let t873 = mul_sub(t12, t748, t3 * t751);
-        let t874 = mul_sub(t3, t754, t21 * t748);
-        let t875 = mul_sub(t751, t873, t754 * t874);
-        let t876 = mul_sub(t15, t748, t6 * t751);
-        let t877 = mul_sub(t6, t754, t24 * t748);
-        let t878 = mul_sub(t751, t876, t754 * t877);
-        let t879 = mul_sub(t18, t748, t9 * t751);
-        let t880 = mul_sub(t9, t754, t27 * t748);
-        let t881 = mul_sub(t751, t879, t754 * t880);
-        let t882 = mul_sub(t21, t751, t12 * t754);
-        let t883 = mul_sub(t754, t882, t748 * t873);
-        let t884 = mul_sub(t24, t751, t15 * t754);
-        let t885 = mul_sub(t754, t884, t748 * t876);
-        let t886 = mul_sub(t27, t751, t18 * t754);
-        let t887 = mul_sub(t754, t886, t748 * t879);
-        let t888 = mul_sub(t748, t874, t751 * t882);
-        let t889 = mul_sub(t748, t877, t751 * t884);
-        let t890 = mul_sub(t748, t880, t751 * t886);
-        // acceleration of the platform origin relative to the base, less w x v
-        let t891 = neg_mul_add(t36, t856, t840 + t866);
-        let t892 = mul_add(t32, t854, t34 * t855) + t891;
-        let t893 = t742 + t751;
-        let t894 = t745 + t754;
-        let t895 = t892 - mul_sub(t769, t893, t766 * t894);
-        let t896 = mul_sub(t32, t857, t34 * t859);
-        let t897 = mul_add(t36, t860, t842 + t869) - t896;
-        let t898 = t739 + t748;
-        let t899 = t897 - mul_sub(t763, t894, t769 * t898);
-        let t900 = mul_add(t36, t863, t844 + t872);
-        let t901 = mul_sub(t32, t861, t34 * t862) + t900;
-        let t902 = t901 - mul_sub(t766, t898, t763 * t893);
-        // rate of that angular velocity
-        let t903 = mul_add(t745, t756, neg_mul_add(t742, t757, t847));
-        let t904 = mul_add(t739, t757, neg_mul_add(t745, t755, t850));
-        let t905 = mul_add(t742, t755, neg_mul_add(t739, t756, t853));
-        // leg 1: acceleration of the platform joint relative to the base
-        let t906 = neg_mul_add(t42, t905, mul_add(t45, t904, t895));
-        let t907 = t906 - mul_sub(t756, t772, t757 * t771);
-        let t908 = neg_mul_add(t45, t903, mul_add(t39, t905, t899));
-        let t909 = t908 - mul_sub(t757, t770, t755 * t772);
-        let t910 = neg_mul_add(t39, t904, mul_add(t42, t903, t902));
-        let t911 = t910 - mul_sub(t755, t771, t756 * t770);
+        let t888 = mul_sub(t12, t763, t3 * t766);
+        let t889 = mul_sub(t3, t769, t21 * t763);
+        let t890 = mul_sub(t766, t888, t769 * t889);
+        let t891 = mul_sub(t15, t763, t6 * t766);
+        let t892 = mul_sub(t6, t769, t24 * t763);
+        let t893 = mul_sub(t766, t891, t769 * t892);
+        let t894 = mul_sub(t18, t763, t9 * t766);
+        let t895 = mul_sub(t9, t769, t27 * t763);
+        let t896 = mul_sub(t766, t894, t769 * t895);
+        let t897 = mul_sub(t21, t766, t12 * t769);
+        let t898 = mul_sub(t769, t897, t763 * t888);
+        let t899 = mul_sub(t24, t766, t15 * t769);
+        let t900 = mul_sub(t769, t899, t763 * t891);
+        let t901 = mul_sub(t27, t766, t18 * t769);
+        let t902 = mul_sub(t769, t901, t763 * t894);
+        let t903 = mul_sub(t763, t889, t766 * t897);
+        let t904 = mul_sub(t763, t892, t766 * t899);
+        let t905 = mul_sub(t763, t895, t766 * t901);
         (
-            t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t60, t63, t66, t81, t84, t87,
-            t102, t105, t108, t123, t126, t129, t144, t147, t150, t172, t173, t183, t184, t194,
-            t195, t205, t206, t216, t217, t227, t228, t229, t230, t231, t232, t233, t234, t235,
-            t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t248, t250, t252,
-            t254, t256, t258, t260, t262, t264, t266, t268, t270, t272, t274, t276, t278, t280,
-            t282, t283, t284, t285, t286, t287, t288, t289, t290, t291, t292, t293, t294, t295,
-            t296, t297, t298, t299, t300, t303, t306, t310, t313, t317, t320, t324, t327, t331,
-            t334, t338, t341, t344, t351, t358, t365, t379, t390, t401, t413, t424, t436, t569,
-            t570, t576, t594, t614, t645, t678, t681, t684, t685, t686, t689, t690, t691, t692,
-            t702, t705, t708, t717, t720, t729, t739, t742, t745, t755, t756, t757, t773, t774,
-            t775, t776, t777, t778, t779, t780, t781, t782, t783, t784, t785, t786, t787, t791,
-            t792, t793, t794, t795, t799, t800, t801, t802, t803, t807, t808, t809, t810, t811,
-            t815, t816, t817, t818, t819, t823, t824, t825, t826, t827, t831, t832, t833, t834,
-            t835, t840, t842, t844, t854, t855, t856, t857, t859, t860, t861, t862, t863, t866,
-            t869, t872, t875, t878, t881, t883, t885, t887, t888, t889, t890, t895, t899, t902,
-            t903, t904, t905, t907, t909, t911,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t39, t42, t45, t60, t63, t66,
+            t81, t84, t87, t102, t105, t108, t123, t126, t129, t144, t147, t150, t172, t173, t183,
+            t184, t194, t195, t205, t206, t216, t217, t227, t228, t229, t230, t231, t232, t233,
+            t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t248,
+            t250, t252, t254, t256, t258, t260, t262, t264, t266, t268, t270, t272, t274, t276,
+            t278, t280, t282, t283, t284, t285, t286, t287, t288, t289, t290, t291, t292, t293,
+            t294, t295, t296, t297, t298, t299, t300, t303, t306, t310, t313, t317, t320, t324,
+            t327, t331, t334, t338, t341, t344, t351, t358, t365, t379, t390, t401, t413, t424,
+            t436, t588, t589, t595, t611, t631, t660, t693, t696, t699, t700, t701, t704, t705,
+            t706, t707, t717, t720, t723, t732, t735, t744, t754, t757, t760, t763, t766, t769,
+            t770, t771, t772, t778, t781, t784, t785, t786, t787, t788, t789, t790, t791, t792,
+            t793, t794, t795, t796, t797, t798, t799, t800, t801, t802, t806, t807, t808, t809,
+            t810, t814, t815, t816, t817, t818, t822, t823, t824, t825, t826, t830, t831, t832,
+            t833, t834, t838, t839, t840, t841, t842, t846, t847, t848, t849, t850, t855, t857,
+            t859, t862, t865, t868, t869, t870, t871, t872, t874, t875, t876, t877, t878, t881,
+            t884, t887, t890, t893, t896, t898, t900, t902, t903, t904, t905,
         )
     };
     {
+        // acceleration of the platform origin relative to the base, less w x v
+        let t906 = neg_mul_add(t36, t871, t855 + t881);
+        let t907 = mul_add(t32, t869, t34 * t870) + t906;
+        let t908 = t757 + t766;
+        let t909 = t760 + t769;
+        let t910 = t907 - mul_sub(t784, t908, t781 * t909);
+        let t911 = mul_sub(t32, t872, t34 * t874);
+        let t912 = mul_add(t36, t875, t857 + t884) - t911;
+        let t913 = t754 + t763;
+        let t914 = t912 - mul_sub(t778, t909, t784 * t913);
+        let t915 = mul_add(t36, t878, t859 + t887);
+        let t916 = mul_sub(t32, t876, t34 * t877) + t915;
+        let t917 = t916 - mul_sub(t781, t913, t778 * t908);
+        // rate of that angular velocity
+        let t918 = mul_add(t760, t771, neg_mul_add(t757, t772, t862));
+        let t919 = mul_add(t754, t772, neg_mul_add(t760, t770, t865));
+        let t920 = mul_add(t757, t770, neg_mul_add(t754, t771, t868));
+        // leg 1: acceleration of the platform joint relative to the base
+        let t921 = neg_mul_add(t42, t920, mul_add(t45, t919, t910));
+        let t922 = t921 - mul_sub(t771, t787, t772 * t786);
+        let t923 = neg_mul_add(t45, t918, mul_add(t39, t920, t914));
+        let t924 = t923 - mul_sub(t772, t785, t770 * t787);
+        let t925 = neg_mul_add(t39, t919, mul_add(t42, t918, t917));
+        let t926 = t925 - mul_sub(t770, t786, t771 * t785);
         // leg 2: acceleration of the platform joint relative to the base
-        let t912 = neg_mul_add(t63, t905, mul_add(t66, t904, t895));
-        let t913 = t912 - mul_sub(t756, t775, t757 * t774);
-        let t914 = neg_mul_add(t66, t903, mul_add(t60, t905, t899));
-        let t915 = t914 - mul_sub(t757, t773, t755 * t775);
-        let t916 = neg_mul_add(t60, t904, mul_add(t63, t903, t902));
-        let t917 = t916 - mul_sub(t755, t774, t756 * t773);
+        let t927 = neg_mul_add(t63, t920, mul_add(t66, t919, t910));
+        let t928 = t927 - mul_sub(t771, t790, t772 * t789);
+        let t929 = neg_mul_add(t66, t918, mul_add(t60, t920, t914));
+        let t930 = t929 - mul_sub(t772, t788, t770 * t790);
+        let t931 = neg_mul_add(t60, t919, mul_add(t63, t918, t917));
+        let t932 = t931 - mul_sub(t770, t789, t771 * t788);
         // leg 3: acceleration of the platform joint relative to the base
-        let t918 = neg_mul_add(t84, t905, mul_add(t87, t904, t895));
-        let t919 = t918 - mul_sub(t756, t778, t757 * t777);
-        let t920 = neg_mul_add(t87, t903, mul_add(t81, t905, t899));
-        let t921 = t920 - mul_sub(t757, t776, t755 * t778);
-        let t922 = neg_mul_add(t81, t904, mul_add(t84, t903, t902));
-        let t923 = t922 - mul_sub(t755, t777, t756 * t776);
+        let t933 = neg_mul_add(t84, t920, mul_add(t87, t919, t910));
+        let t934 = t933 - mul_sub(t771, t793, t772 * t792);
+        let t935 = neg_mul_add(t87, t918, mul_add(t81, t920, t914));
+        let t936 = t935 - mul_sub(t772, t791, t770 * t793);
+        let t937 = neg_mul_add(t81, t919, mul_add(t84, t918, t917));
+        let t938 = t937 - mul_sub(t770, t792, t771 * t791);
         // leg 4: acceleration of the platform joint relative to the base
-        let t924 = neg_mul_add(t105, t905, mul_add(t108, t904, t895));
-        let t925 = t924 - mul_sub(t756, t781, t757 * t780);
-        let t926 = neg_mul_add(t108, t903, mul_add(t102, t905, t899));
-        let t927 = t926 - mul_sub(t757, t779, t755 * t781);
-        let t928 = neg_mul_add(t102, t904, mul_add(t105, t903, t902));
-        let t929 = t928 - mul_sub(t755, t780, t756 * t779);
+        let t939 = neg_mul_add(t105, t920, mul_add(t108, t919, t910));
+        let t940 = t939 - mul_sub(t771, t796, t772 * t795);
+        let t941 = neg_mul_add(t108, t918, mul_add(t102, t920, t914));
+        let t942 = t941 - mul_sub(t772, t794, t770 * t796);
+        let t943 = neg_mul_add(t102, t919, mul_add(t105, t918, t917));
+        let t944 = t943 - mul_sub(t770, t795, t771 * t794);
         // leg 5: acceleration of the platform joint relative to the base
-        let t930 = neg_mul_add(t126, t905, mul_add(t129, t904, t895));
-        let t931 = t930 - mul_sub(t756, t784, t757 * t783);
-        let t932 = neg_mul_add(t129, t903, mul_add(t123, t905, t899));
-        let t933 = t932 - mul_sub(t757, t782, t755 * t784);
-        let t934 = neg_mul_add(t123, t904, mul_add(t126, t903, t902));
-        let t935 = t934 - mul_sub(t755, t783, t756 * t782);
+        let t945 = neg_mul_add(t126, t920, mul_add(t129, t919, t910));
+        let t946 = t945 - mul_sub(t771, t799, t772 * t798);
+        let t947 = neg_mul_add(t129, t918, mul_add(t123, t920, t914));
+        let t948 = t947 - mul_sub(t772, t797, t770 * t799);
+        let t949 = neg_mul_add(t123, t919, mul_add(t126, t918, t917));
+        let t950 = t949 - mul_sub(t770, t798, t771 * t797);
         // leg 6: acceleration of the platform joint relative to the base
-        let t936 = neg_mul_add(t147, t905, mul_add(t150, t904, t895));
-        let t937 = t936 - mul_sub(t756, t787, t757 * t786);
-        let t938 = neg_mul_add(t150, t903, mul_add(t144, t905, t899));
-        let t939 = t938 - mul_sub(t757, t785, t755 * t787);
-        let t940 = neg_mul_add(t144, t904, mul_add(t147, t903, t902));
-        let t941 = t940 - mul_sub(t755, t786, t756 * t785);
+        let t951 = neg_mul_add(t147, t920, mul_add(t150, t919, t910));
+        let t952 = t951 - mul_sub(t771, t802, t772 * t801);
+        let t953 = neg_mul_add(t150, t918, mul_add(t144, t920, t914));
+        let t954 = t953 - mul_sub(t772, t800, t770 * t802);
+        let t955 = neg_mul_add(t144, t919, mul_add(t147, t918, t917));
+        let t956 = t955 - mul_sub(t770, t801, t771 * t800);
         // leg 1: actuator acceleration d''
-        let t942 = mul_add(t793, t793, mul_add(t791, t791, t792 * t792));
-        let t943 = mul_add(t231, t911, mul_add(t229, t907, t230 * t909));
-        let t944 = neg_mul_add(t172, mul_add(t795, t795, t942), t943);
+        let t957 = mul_add(t808, t808, mul_add(t806, t806, t807 * t807));
+        let t958 = mul_add(t231, t926, mul_add(t229, t922, t230 * t924));
+        let t959 = neg_mul_add(t172, mul_add(t810, t810, t957), t958);
         // leg 2: actuator acceleration d''
-        let t945 = mul_add(t801, t801, mul_add(t799, t799, t800 * t800));
-        let t946 = mul_add(t234, t917, mul_add(t232, t913, t233 * t915));
-        let t947 = neg_mul_add(t183, mul_add(t803, t803, t945), t946);
+        let t960 = mul_add(t816, t816, mul_add(t814, t814, t815 * t815));
+        let t961 = mul_add(t234, t932, mul_add(t232, t928, t233 * t930));
+        let t962 = neg_mul_add(t183, mul_add(t818, t818, t960), t961);
         // leg 3: actuator acceleration d''
-        let t948 = mul_add(t809, t809, mul_add(t807, t807, t808 * t808));
-        let t949 = mul_add(t237, t923, mul_add(t235, t919, t236 * t921));
-        let t950 = neg_mul_add(t194, mul_add(t811, t811, t948), t949);
+        let t963 = mul_add(t824, t824, mul_add(t822, t822, t823 * t823));
+        let t964 = mul_add(t237, t938, mul_add(t235, t934, t236 * t936));
+        let t965 = neg_mul_add(t194, mul_add(t826, t826, t963), t964);
         // leg 4: actuator acceleration d''
-        let t951 = mul_add(t817, t817, mul_add(t815, t815, t816 * t816));
-        let t952 = mul_add(t240, t929, mul_add(t238, t925, t239 * t927));
-        let t953 = neg_mul_add(t205, mul_add(t819, t819, t951), t952);
+        let t966 = mul_add(t832, t832, mul_add(t830, t830, t831 * t831));
+        let t967 = mul_add(t240, t944, mul_add(t238, t940, t239 * t942));
+        let t968 = neg_mul_add(t205, mul_add(t834, t834, t966), t967);
         // leg 5: actuator acceleration d''
-        let t954 = mul_add(t825, t825, mul_add(t823, t823, t824 * t824));
-        let t955 = mul_add(t243, t935, mul_add(t241, t931, t242 * t933));
-        let t956 = neg_mul_add(t216, mul_add(t827, t827, t954), t955);
+        let t969 = mul_add(t840, t840, mul_add(t838, t838, t839 * t839));
+        let t970 = mul_add(t243, t950, mul_add(t241, t946, t242 * t948));
+        let t971 = neg_mul_add(t216, mul_add(t842, t842, t969), t970);
         // leg 6: actuator acceleration d''
-        let t957 = mul_add(t833, t833, mul_add(t831, t831, t832 * t832));
-        let t958 = mul_add(t246, t941, mul_add(t244, t937, t245 * t939));
-        let t959 = neg_mul_add(t227, mul_add(t835, t835, t957), t958);
+        let t972 = mul_add(t848, t848, mul_add(t846, t846, t847 * t847));
+        let t973 = mul_add(t246, t956, mul_add(t244, t952, t245 * t954));
+        let t974 = neg_mul_add(t227, mul_add(t850, t850, t972), t973);
         // leg 1: leg inertia less weight along the actuator
-        let t960 = c(2.0) * t794;
-        let t961 = parameters.actuator_axis[0][1] * t745;
-        let t962 = mul_sub(parameters.actuator_axis[0][2], t742, t961);
-        let t963 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
-        let t964 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
-        let t965 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
-        let t966 = mul_add(t856, t963, t840) - mul_add(t854, t964, t855 * t965);
-        let t967 = neg_mul_add(t960, t962, t966);
-        let t968 = neg_mul_add(parameters.actuator_axis[0][0], t944, t967);
-        let t969 = parameters.actuator_axis[0][2] * t739;
-        let t970 = mul_sub(parameters.actuator_axis[0][0], t745, t969);
-        let t971 = mul_sub(t857, t964, t859 * t965);
-        let t972 = neg_mul_add(t960, t970, t971 + neg_mul_add(t860, t963, t842));
-        let t973 = neg_mul_add(parameters.actuator_axis[0][1], t944, t972);
-        let t974 = parameters.actuator_axis[0][0] * t742;
-        let t975 = mul_sub(parameters.actuator_axis[0][1], t739, t974);
-        let t976 = mul_sub(t861, t964, t862 * t965);
-        let t977 = neg_mul_add(t960, t975, neg_mul_add(t863, t963, t844) - t976);
-        let t978 = neg_mul_add(parameters.actuator_axis[0][2], t944, t977);
-        let t979 = parameters.actuator_axis[0][1] * t973;
-        let t980 = mul_add(parameters.actuator_axis[0][0], t968, t979);
-        let t981 = mul_add(parameters.actuator_axis[0][2], t978, t980);
-        let t982 = neg_mul_add(parameters.platform_point[0][2], t890, t872);
-        let t983 = parameters.platform_point[0][1] * t889;
-        let t984 = t982 - mul_add(parameters.platform_point[0][0], t888, t983);
-        let t985 = neg_mul_add(parameters.platform_point[0][2], t881, t866);
-        let t986 = parameters.platform_point[0][1] * t878;
-        let t987 = t985 - mul_add(parameters.platform_point[0][0], t875, t986);
-        let t988 = neg_mul_add(parameters.platform_point[0][2], t887, t869);
-        let t989 = parameters.platform_point[0][1] * t885;
-        let t990 = t988 - mul_add(parameters.platform_point[0][0], t883, t989);
-        let t991 = parameters.actuator_axis[0][1] * t990;
-        let t992 = mul_add(parameters.actuator_axis[0][0], t987, t991);
-        let t993 = mul_add(parameters.actuator_axis[0][2], t984, t992);
-        let t994 = mul_add(t975, t975, mul_add(t962, t962, t970 * t970));
-        let t995 = mul_add(parameters.mover_offset[0], t994, t981);
+        let t975 = c(2.0) * t809;
+        let t976 = parameters.actuator_axis[0][1] * t760;
+        let t977 = mul_sub(parameters.actuator_axis[0][2], t757, t976);
+        let t978 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t979 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t980 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
+        let t981 = mul_add(t871, t978, t855) - mul_add(t869, t979, t870 * t980);
+        let t982 = neg_mul_add(t975, t977, t981);
+        let t983 = neg_mul_add(parameters.actuator_axis[0][0], t959, t982);
+        let t984 = parameters.actuator_axis[0][2] * t754;
+        let t985 = mul_sub(parameters.actuator_axis[0][0], t760, t984);
+        let t986 = mul_sub(t872, t979, t874 * t980);
+        let t987 = neg_mul_add(t975, t985, t986 + neg_mul_add(t875, t978, t857));
+        let t988 = neg_mul_add(parameters.actuator_axis[0][1], t959, t987);
+        let t989 = parameters.actuator_axis[0][0] * t757;
+        let t990 = mul_sub(parameters.actuator_axis[0][1], t754, t989);
+        let t991 = mul_sub(t876, t979, t877 * t980);
+        let t992 = neg_mul_add(t975, t990, neg_mul_add(t878, t978, t859) - t991);
+        let t993 = neg_mul_add(parameters.actuator_axis[0][2], t959, t992);
+        let t994 = parameters.actuator_axis[0][1] * t988;
+        let t995 = mul_add(parameters.actuator_axis[0][0], t983, t994);
+        let t996 = mul_add(parameters.actuator_axis[0][2], t993, t995);
+        let t997 = neg_mul_add(parameters.platform_point[0][2], t905, t887);
+        let t998 = parameters.platform_point[0][1] * t904;
+        let t999 = t997 - mul_add(parameters.platform_point[0][0], t903, t998);
+        let t1000 = neg_mul_add(parameters.platform_point[0][2], t896, t881);
+        let t1001 = parameters.platform_point[0][1] * t893;
+        let t1002 = t1000 - mul_add(parameters.platform_point[0][0], t890, t1001);
+        let t1003 = neg_mul_add(parameters.platform_point[0][2], t902, t884);
+        let t1004 = parameters.platform_point[0][1] * t900;
+        let t1005 = t1003 - mul_add(parameters.platform_point[0][0], t898, t1004);
+        let t1006 = parameters.actuator_axis[0][1] * t1005;
+        let t1007 = mul_add(parameters.actuator_axis[0][0], t1002, t1006);
+        let t1008 = mul_add(parameters.actuator_axis[0][2], t999, t1007);
+        let t1009 = mul_add(t990, t990, mul_add(t977, t977, t985 * t985));
+        let t1010 = mul_add(parameters.mover_offset[0], t1009, t996);
         // leg 1: remaining leg inertia less weight at the platform joint
-        let t996 = t306 * t968;
-        let t997 = t306 * t973;
-        let t998 = t306 * t978;
+        let t1011 = t306 * t983;
+        let t1012 = t306 * t988;
+        let t1013 = t306 * t993;
         // leg 2: leg inertia less weight along the actuator
-        let t999 = c(2.0) * t802;
-        let t1000 = parameters.actuator_axis[1][1] * t745;
-        let t1001 = mul_sub(parameters.actuator_axis[1][2], t742, t1000);
-        let t1002 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
-        let t1003 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
-        let t1004 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
-        let t1005 = mul_add(t856, t1002, t840) - mul_add(t854, t1003, t855 * t1004);
-        let t1006 = neg_mul_add(t999, t1001, t1005);
-        let t1007 = neg_mul_add(parameters.actuator_axis[1][0], t947, t1006);
-        let t1008 = parameters.actuator_axis[1][2] * t739;
-        let t1009 = mul_sub(parameters.actuator_axis[1][0], t745, t1008);
-        let t1010 = mul_sub(t857, t1003, t859 * t1004);
-        let t1011 = neg_mul_add(t999, t1009, t1010 + neg_mul_add(t860, t1002, t842));
-        let t1012 = neg_mul_add(parameters.actuator_axis[1][1], t947, t1011);
-        let t1013 = parameters.actuator_axis[1][0] * t742;
-        let t1014 = mul_sub(parameters.actuator_axis[1][1], t739, t1013);
-        let t1015 = mul_sub(t861, t1003, t862 * t1004);
-        let t1016 = neg_mul_add(t999, t1014, neg_mul_add(t863, t1002, t844) - t1015);
-        let t1017 = neg_mul_add(parameters.actuator_axis[1][2], t947, t1016);
-        let t1018 = parameters.actuator_axis[1][1] * t1012;
-        let t1019 = mul_add(parameters.actuator_axis[1][0], t1007, t1018);
-        let t1020 = mul_add(parameters.actuator_axis[1][2], t1017, t1019);
-        let t1021 = neg_mul_add(parameters.platform_point[1][2], t890, t872);
-        let t1022 = parameters.platform_point[1][1] * t889;
-        let t1023 = t1021 - mul_add(parameters.platform_point[1][0], t888, t1022);
-        let t1024 = neg_mul_add(parameters.platform_point[1][2], t881, t866);
-        let t1025 = parameters.platform_point[1][1] * t878;
-        let t1026 = t1024 - mul_add(parameters.platform_point[1][0], t875, t1025);
-        let t1027 = neg_mul_add(parameters.platform_point[1][2], t887, t869);
-        let t1028 = parameters.platform_point[1][1] * t885;
-        let t1029 = t1027 - mul_add(parameters.platform_point[1][0], t883, t1028);
-        let t1030 = parameters.actuator_axis[1][1] * t1029;
-        let t1031 = mul_add(parameters.actuator_axis[1][0], t1026, t1030);
-        let t1032 = mul_add(parameters.actuator_axis[1][2], t1023, t1031);
-        let t1033 = mul_add(t1014, t1014, mul_add(t1001, t1001, t1009 * t1009));
-        let t1034 = mul_add(parameters.mover_offset[1], t1033, t1020);
+        let t1014 = c(2.0) * t817;
+        let t1015 = parameters.actuator_axis[1][1] * t760;
+        let t1016 = mul_sub(parameters.actuator_axis[1][2], t757, t1015);
+        let t1017 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t1018 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t1019 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
+        let t1020 = mul_add(t871, t1017, t855) - mul_add(t869, t1018, t870 * t1019);
+        let t1021 = neg_mul_add(t1014, t1016, t1020);
+        let t1022 = neg_mul_add(parameters.actuator_axis[1][0], t962, t1021);
+        let t1023 = parameters.actuator_axis[1][2] * t754;
+        let t1024 = mul_sub(parameters.actuator_axis[1][0], t760, t1023);
+        let t1025 = mul_sub(t872, t1018, t874 * t1019);
+        let t1026 = neg_mul_add(t1014, t1024, t1025 + neg_mul_add(t875, t1017, t857));
+        let t1027 = neg_mul_add(parameters.actuator_axis[1][1], t962, t1026);
+        let t1028 = parameters.actuator_axis[1][0] * t757;
+        let t1029 = mul_sub(parameters.actuator_axis[1][1], t754, t1028);
+        let t1030 = mul_sub(t876, t1018, t877 * t1019);
+        let t1031 = neg_mul_add(t1014, t1029, neg_mul_add(t878, t1017, t859) - t1030);
+        let t1032 = neg_mul_add(parameters.actuator_axis[1][2], t962, t1031);
+        let t1033 = parameters.actuator_axis[1][1] * t1027;
+        let t1034 = mul_add(parameters.actuator_axis[1][0], t1022, t1033);
+        let t1035 = mul_add(parameters.actuator_axis[1][2], t1032, t1034);
+        let t1036 = neg_mul_add(parameters.platform_point[1][2], t905, t887);
+        let t1037 = parameters.platform_point[1][1] * t904;
+        let t1038 = t1036 - mul_add(parameters.platform_point[1][0], t903, t1037);
+        let t1039 = neg_mul_add(parameters.platform_point[1][2], t896, t881);
+        let t1040 = parameters.platform_point[1][1] * t893;
+        let t1041 = t1039 - mul_add(parameters.platform_point[1][0], t890, t1040);
+        let t1042 = neg_mul_add(parameters.platform_point[1][2], t902, t884);
+        let t1043 = parameters.platform_point[1][1] * t900;
+        let t1044 = t1042 - mul_add(parameters.platform_point[1][0], t898, t1043);
+        let t1045 = parameters.actuator_axis[1][1] * t1044;
+        let t1046 = mul_add(parameters.actuator_axis[1][0], t1041, t1045);
+        let t1047 = mul_add(parameters.actuator_axis[1][2], t1038, t1046);
+        let t1048 = mul_add(t1029, t1029, mul_add(t1016, t1016, t1024 * t1024));
+        let t1049 = mul_add(parameters.mover_offset[1], t1048, t1035);
         // leg 2: remaining leg inertia less weight at the platform joint
-        let t1035 = t313 * t1007;
-        let t1036 = t313 * t1012;
-        let t1037 = t313 * t1017;
+        let t1050 = t313 * t1022;
+        let t1051 = t313 * t1027;
+        let t1052 = t313 * t1032;
         // leg 3: leg inertia less weight along the actuator
-        let t1038 = c(2.0) * t810;
-        let t1039 = parameters.actuator_axis[2][1] * t745;
-        let t1040 = mul_sub(parameters.actuator_axis[2][2], t742, t1039);
-        let t1041 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
-        let t1042 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
-        let t1043 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
-        let t1044 = mul_add(t856, t1041, t840) - mul_add(t854, t1042, t855 * t1043);
-        let t1045 = neg_mul_add(t1038, t1040, t1044);
-        let t1046 = neg_mul_add(parameters.actuator_axis[2][0], t950, t1045);
-        let t1047 = parameters.actuator_axis[2][2] * t739;
-        let t1048 = mul_sub(parameters.actuator_axis[2][0], t745, t1047);
-        let t1049 = mul_sub(t857, t1042, t859 * t1043);
-        let t1050 = neg_mul_add(t1038, t1048, t1049 + neg_mul_add(t860, t1041, t842));
-        let t1051 = neg_mul_add(parameters.actuator_axis[2][1], t950, t1050);
-        let t1052 = parameters.actuator_axis[2][0] * t742;
-        let t1053 = mul_sub(parameters.actuator_axis[2][1], t739, t1052);
-        let t1054 = mul_sub(t861, t1042, t862 * t1043);
-        let t1055 = neg_mul_add(t1038, t1053, neg_mul_add(t863, t1041, t844) - t1054);
-        let t1056 = neg_mul_add(parameters.actuator_axis[2][2], t950, t1055);
-        let t1057 = parameters.actuator_axis[2][1] * t1051;
-        let t1058 = mul_add(parameters.actuator_axis[2][0], t1046, t1057);
-        let t1059 = mul_add(parameters.actuator_axis[2][2], t1056, t1058);
-        let t1060 = neg_mul_add(parameters.platform_point[2][2], t890, t872);
-        let t1061 = parameters.platform_point[2][1] * t889;
-        let t1062 = t1060 - mul_add(parameters.platform_point[2][0], t888, t1061);
-        let t1063 = neg_mul_add(parameters.platform_point[2][2], t881, t866);
-        let t1064 = parameters.platform_point[2][1] * t878;
-        let t1065 = t1063 - mul_add(parameters.platform_point[2][0], t875, t1064);
-        let t1066 = neg_mul_add(parameters.platform_point[2][2], t887, t869);
-        let t1067 = parameters.platform_point[2][1] * t885;
-        let t1068 = t1066 - mul_add(parameters.platform_point[2][0], t883, t1067);
-        let t1069 = parameters.actuator_axis[2][1] * t1068;
-        let t1070 = mul_add(parameters.actuator_axis[2][0], t1065, t1069);
-        let t1071 = mul_add(parameters.actuator_axis[2][2], t1062, t1070);
-        let t1072 = mul_add(t1053, t1053, mul_add(t1040, t1040, t1048 * t1048));
-        let t1073 = mul_add(parameters.mover_offset[2], t1072, t1059);
+        let t1053 = c(2.0) * t825;
+        let t1054 = parameters.actuator_axis[2][1] * t760;
+        let t1055 = mul_sub(parameters.actuator_axis[2][2], t757, t1054);
+        let t1056 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t1057 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t1058 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
+        let t1059 = mul_add(t871, t1056, t855) - mul_add(t869, t1057, t870 * t1058);
+        let t1060 = neg_mul_add(t1053, t1055, t1059);
+        let t1061 = neg_mul_add(parameters.actuator_axis[2][0], t965, t1060);
+        let t1062 = parameters.actuator_axis[2][2] * t754;
+        let t1063 = mul_sub(parameters.actuator_axis[2][0], t760, t1062);
+        let t1064 = mul_sub(t872, t1057, t874 * t1058);
+        let t1065 = neg_mul_add(t1053, t1063, t1064 + neg_mul_add(t875, t1056, t857));
+        let t1066 = neg_mul_add(parameters.actuator_axis[2][1], t965, t1065);
+        let t1067 = parameters.actuator_axis[2][0] * t757;
+        let t1068 = mul_sub(parameters.actuator_axis[2][1], t754, t1067);
+        let t1069 = mul_sub(t876, t1057, t877 * t1058);
+        let t1070 = neg_mul_add(t1053, t1068, neg_mul_add(t878, t1056, t859) - t1069);
+        let t1071 = neg_mul_add(parameters.actuator_axis[2][2], t965, t1070);
+        let t1072 = parameters.actuator_axis[2][1] * t1066;
+        let t1073 = mul_add(parameters.actuator_axis[2][0], t1061, t1072);
+        let t1074 = mul_add(parameters.actuator_axis[2][2], t1071, t1073);
+        let t1075 = neg_mul_add(parameters.platform_point[2][2], t905, t887);
+        let t1076 = parameters.platform_point[2][1] * t904;
+        let t1077 = t1075 - mul_add(parameters.platform_point[2][0], t903, t1076);
+        let t1078 = neg_mul_add(parameters.platform_point[2][2], t896, t881);
+        let t1079 = parameters.platform_point[2][1] * t893;
+        let t1080 = t1078 - mul_add(parameters.platform_point[2][0], t890, t1079);
+        let t1081 = neg_mul_add(parameters.platform_point[2][2], t902, t884);
+        let t1082 = parameters.platform_point[2][1] * t900;
+        let t1083 = t1081 - mul_add(parameters.platform_point[2][0], t898, t1082);
+        let t1084 = parameters.actuator_axis[2][1] * t1083;
+        let t1085 = mul_add(parameters.actuator_axis[2][0], t1080, t1084);
+        let t1086 = mul_add(parameters.actuator_axis[2][2], t1077, t1085);
+        let t1087 = mul_add(t1068, t1068, mul_add(t1055, t1055, t1063 * t1063));
+        let t1088 = mul_add(parameters.mover_offset[2], t1087, t1074);
         // leg 3: remaining leg inertia less weight at the platform joint
-        let t1074 = t320 * t1046;
-        let t1075 = t320 * t1051;
-        let t1076 = t320 * t1056;
+        let t1089 = t320 * t1061;
+        let t1090 = t320 * t1066;
+        let t1091 = t320 * t1071;
         // leg 4: leg inertia less weight along the actuator
-        let t1077 = c(2.0) * t818;
-        let t1078 = parameters.actuator_axis[3][1] * t745;
-        let t1079 = mul_sub(parameters.actuator_axis[3][2], t742, t1078);
-        let t1080 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
-        let t1081 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
-        let t1082 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
-        let t1083 = mul_add(t856, t1080, t840) - mul_add(t854, t1081, t855 * t1082);
-        let t1084 = neg_mul_add(t1077, t1079, t1083);
-        let t1085 = neg_mul_add(parameters.actuator_axis[3][0], t953, t1084);
-        let t1086 = parameters.actuator_axis[3][2] * t739;
-        let t1087 = mul_sub(parameters.actuator_axis[3][0], t745, t1086);
-        let t1088 = mul_sub(t857, t1081, t859 * t1082);
-        let t1089 = neg_mul_add(t1077, t1087, t1088 + neg_mul_add(t860, t1080, t842));
-        let t1090 = neg_mul_add(parameters.actuator_axis[3][1], t953, t1089);
-        let t1091 = parameters.actuator_axis[3][0] * t742;
-        let t1092 = mul_sub(parameters.actuator_axis[3][1], t739, t1091);
-        let t1093 = mul_sub(t861, t1081, t862 * t1082);
-        let t1094 = neg_mul_add(t1077, t1092, neg_mul_add(t863, t1080, t844) - t1093);
-        let t1095 = neg_mul_add(parameters.actuator_axis[3][2], t953, t1094);
-        let t1096 = parameters.actuator_axis[3][1] * t1090;
-        let t1097 = mul_add(parameters.actuator_axis[3][0], t1085, t1096);
-        let t1098 = mul_add(parameters.actuator_axis[3][2], t1095, t1097);
-        let t1099 = neg_mul_add(parameters.platform_point[3][2], t890, t872);
-        let t1100 = parameters.platform_point[3][1] * t889;
-        let t1101 = t1099 - mul_add(parameters.platform_point[3][0], t888, t1100);
-        let t1102 = neg_mul_add(parameters.platform_point[3][2], t881, t866);
-        let t1103 = parameters.platform_point[3][1] * t878;
-        let t1104 = t1102 - mul_add(parameters.platform_point[3][0], t875, t1103);
-        let t1105 = neg_mul_add(parameters.platform_point[3][2], t887, t869);
-        let t1106 = parameters.platform_point[3][1] * t885;
-        let t1107 = t1105 - mul_add(parameters.platform_point[3][0], t883, t1106);
-        let t1108 = parameters.actuator_axis[3][1] * t1107;
-        let t1109 = mul_add(parameters.actuator_axis[3][0], t1104, t1108);
-        let t1110 = mul_add(parameters.actuator_axis[3][2], t1101, t1109);
-        let t1111 = mul_add(t1092, t1092, mul_add(t1079, t1079, t1087 * t1087));
-        let t1112 = mul_add(parameters.mover_offset[3], t1111, t1098);
+        let t1092 = c(2.0) * t833;
+        let t1093 = parameters.actuator_axis[3][1] * t760;
+        let t1094 = mul_sub(parameters.actuator_axis[3][2], t757, t1093);
+        let t1095 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t1096 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t1097 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
+        let t1098 = mul_add(t871, t1095, t855) - mul_add(t869, t1096, t870 * t1097);
+        let t1099 = neg_mul_add(t1092, t1094, t1098);
+        let t1100 = neg_mul_add(parameters.actuator_axis[3][0], t968, t1099);
+        let t1101 = parameters.actuator_axis[3][2] * t754;
+        let t1102 = mul_sub(parameters.actuator_axis[3][0], t760, t1101);
+        let t1103 = mul_sub(t872, t1096, t874 * t1097);
+        let t1104 = neg_mul_add(t1092, t1102, t1103 + neg_mul_add(t875, t1095, t857));
+        let t1105 = neg_mul_add(parameters.actuator_axis[3][1], t968, t1104);
+        let t1106 = parameters.actuator_axis[3][0] * t757;
+        let t1107 = mul_sub(parameters.actuator_axis[3][1], t754, t1106);
+        let t1108 = mul_sub(t876, t1096, t877 * t1097);
+        let t1109 = neg_mul_add(t1092, t1107, neg_mul_add(t878, t1095, t859) - t1108);
+        let t1110 = neg_mul_add(parameters.actuator_axis[3][2], t968, t1109);
+        let t1111 = parameters.actuator_axis[3][1] * t1105;
+        let t1112 = mul_add(parameters.actuator_axis[3][0], t1100, t1111);
+        let t1113 = mul_add(parameters.actuator_axis[3][2], t1110, t1112);
+        let t1114 = neg_mul_add(parameters.platform_point[3][2], t905, t887);
+        let t1115 = parameters.platform_point[3][1] * t904;
+        let t1116 = t1114 - mul_add(parameters.platform_point[3][0], t903, t1115);
+        let t1117 = neg_mul_add(parameters.platform_point[3][2], t896, t881);
+        let t1118 = parameters.platform_point[3][1] * t893;
+        let t1119 = t1117 - mul_add(parameters.platform_point[3][0], t890, t1118);
+        let t1120 = neg_mul_add(parameters.platform_point[3][2], t902, t884);
+        let t1121 = parameters.platform_point[3][1] * t900;
+        let t1122 = t1120 - mul_add(parameters.platform_point[3][0], t898, t1121);
+        let t1123 = parameters.actuator_axis[3][1] * t1122;
+        let t1124 = mul_add(parameters.actuator_axis[3][0], t1119, t1123);
+        let t1125 = mul_add(parameters.actuator_axis[3][2], t1116, t1124);
+        let t1126 = mul_add(t1107, t1107, mul_add(t1094, t1094, t1102 * t1102));
+        let t1127 = mul_add(parameters.mover_offset[3], t1126, t1113);
         // leg 4: remaining leg inertia less weight at the platform joint
-        let t1113 = t327 * t1085;
-        let t1114 = t327 * t1090;
-        let t1115 = t327 * t1095;
+        let t1128 = t327 * t1100;
+        let t1129 = t327 * t1105;
+        let t1130 = t327 * t1110;
         // leg 5: leg inertia less weight along the actuator
-        let t1116 = c(2.0) * t826;
-        let t1117 = parameters.actuator_axis[4][1] * t745;
-        let t1118 = mul_sub(parameters.actuator_axis[4][2], t742, t1117);
-        let t1119 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
-        let t1120 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
-        let t1121 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
-        let t1122 = mul_add(t856, t1119, t840) - mul_add(t854, t1120, t855 * t1121);
-        let t1123 = neg_mul_add(t1116, t1118, t1122);
-        let t1124 = neg_mul_add(parameters.actuator_axis[4][0], t956, t1123);
-        let t1125 = parameters.actuator_axis[4][2] * t739;
-        let t1126 = mul_sub(parameters.actuator_axis[4][0], t745, t1125);
-        let t1127 = mul_sub(t857, t1120, t859 * t1121);
-        let t1128 = neg_mul_add(t1116, t1126, t1127 + neg_mul_add(t860, t1119, t842));
-        let t1129 = neg_mul_add(parameters.actuator_axis[4][1], t956, t1128);
-        let t1130 = parameters.actuator_axis[4][0] * t742;
-        let t1131 = mul_sub(parameters.actuator_axis[4][1], t739, t1130);
-        let t1132 = mul_sub(t861, t1120, t862 * t1121);
-        let t1133 = neg_mul_add(t1116, t1131, neg_mul_add(t863, t1119, t844) - t1132);
-        let t1134 = neg_mul_add(parameters.actuator_axis[4][2], t956, t1133);
-        let t1135 = parameters.actuator_axis[4][1] * t1129;
-        let t1136 = mul_add(parameters.actuator_axis[4][0], t1124, t1135);
-        let t1137 = mul_add(parameters.actuator_axis[4][2], t1134, t1136);
-        let t1138 = neg_mul_add(parameters.platform_point[4][2], t890, t872);
-        let t1139 = parameters.platform_point[4][1] * t889;
-        let t1140 = t1138 - mul_add(parameters.platform_point[4][0], t888, t1139);
-        let t1141 = neg_mul_add(parameters.platform_point[4][2], t881, t866);
-        let t1142 = parameters.platform_point[4][1] * t878;
-        let t1143 = t1141 - mul_add(parameters.platform_point[4][0], t875, t1142);
-        let t1144 = neg_mul_add(parameters.platform_point[4][2], t887, t869);
-        let t1145 = parameters.platform_point[4][1] * t885;
-        let t1146 = t1144 - mul_add(parameters.platform_point[4][0], t883, t1145);
-        let t1147 = parameters.actuator_axis[4][1] * t1146;
-        let t1148 = mul_add(parameters.actuator_axis[4][0], t1143, t1147);
-        let t1149 = mul_add(parameters.actuator_axis[4][2], t1140, t1148);
-        let t1150 = mul_add(t1131, t1131, mul_add(t1118, t1118, t1126 * t1126));
-        let t1151 = mul_add(parameters.mover_offset[4], t1150, t1137);
+        let t1131 = c(2.0) * t841;
+        let t1132 = parameters.actuator_axis[4][1] * t760;
+        let t1133 = mul_sub(parameters.actuator_axis[4][2], t757, t1132);
+        let t1134 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t1135 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t1136 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
+        let t1137 = mul_add(t871, t1134, t855) - mul_add(t869, t1135, t870 * t1136);
+        let t1138 = neg_mul_add(t1131, t1133, t1137);
+        let t1139 = neg_mul_add(parameters.actuator_axis[4][0], t971, t1138);
+        let t1140 = parameters.actuator_axis[4][2] * t754;
+        let t1141 = mul_sub(parameters.actuator_axis[4][0], t760, t1140);
+        let t1142 = mul_sub(t872, t1135, t874 * t1136);
+        let t1143 = neg_mul_add(t1131, t1141, t1142 + neg_mul_add(t875, t1134, t857));
+        let t1144 = neg_mul_add(parameters.actuator_axis[4][1], t971, t1143);
+        let t1145 = parameters.actuator_axis[4][0] * t757;
+        let t1146 = mul_sub(parameters.actuator_axis[4][1], t754, t1145);
+        let t1147 = mul_sub(t876, t1135, t877 * t1136);
+        let t1148 = neg_mul_add(t1131, t1146, neg_mul_add(t878, t1134, t859) - t1147);
+        let t1149 = neg_mul_add(parameters.actuator_axis[4][2], t971, t1148);
+        let t1150 = parameters.actuator_axis[4][1] * t1144;
+        let t1151 = mul_add(parameters.actuator_axis[4][0], t1139, t1150);
+        let t1152 = mul_add(parameters.actuator_axis[4][2], t1149, t1151);
+        let t1153 = neg_mul_add(parameters.platform_point[4][2], t905, t887);
+        let t1154 = parameters.platform_point[4][1] * t904;
+        let t1155 = t1153 - mul_add(parameters.platform_point[4][0], t903, t1154);
+        let t1156 = neg_mul_add(parameters.platform_point[4][2], t896, t881);
+        let t1157 = parameters.platform_point[4][1] * t893;
+        let t1158 = t1156 - mul_add(parameters.platform_point[4][0], t890, t1157);
+        let t1159 = neg_mul_add(parameters.platform_point[4][2], t902, t884);
+        let t1160 = parameters.platform_point[4][1] * t900;
+        let t1161 = t1159 - mul_add(parameters.platform_point[4][0], t898, t1160);
+        let t1162 = parameters.actuator_axis[4][1] * t1161;
+        let t1163 = mul_add(parameters.actuator_axis[4][0], t1158, t1162);
+        let t1164 = mul_add(parameters.actuator_axis[4][2], t1155, t1163);
+        let t1165 = mul_add(t1146, t1146, mul_add(t1133, t1133, t1141 * t1141));
+        let t1166 = mul_add(parameters.mover_offset[4], t1165, t1152);
         // leg 5: remaining leg inertia less weight at the platform joint
-        let t1152 = t334 * t1124;
-        let t1153 = t334 * t1129;
-        let t1154 = t334 * t1134;
+        let t1167 = t334 * t1139;
+        let t1168 = t334 * t1144;
+        let t1169 = t334 * t1149;
         // leg 6: leg inertia less weight along the actuator
-        let t1155 = c(2.0) * t834;
-        let t1156 = parameters.actuator_axis[5][1] * t745;
-        let t1157 = mul_sub(parameters.actuator_axis[5][2], t742, t1156);
-        let t1158 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
-        let t1159 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
-        let t1160 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
-        let t1161 = mul_add(t856, t1158, t840) - mul_add(t854, t1159, t855 * t1160);
-        let t1162 = neg_mul_add(t1155, t1157, t1161);
-        let t1163 = neg_mul_add(parameters.actuator_axis[5][0], t959, t1162);
-        let t1164 = parameters.actuator_axis[5][2] * t739;
-        let t1165 = mul_sub(parameters.actuator_axis[5][0], t745, t1164);
-        let t1166 = mul_sub(t857, t1159, t859 * t1160);
-        let t1167 = neg_mul_add(t1155, t1165, t1166 + neg_mul_add(t860, t1158, t842));
-        let t1168 = neg_mul_add(parameters.actuator_axis[5][1], t959, t1167);
-        let t1169 = parameters.actuator_axis[5][0] * t742;
-        let t1170 = mul_sub(parameters.actuator_axis[5][1], t739, t1169);
-        let t1171 = mul_sub(t861, t1159, t862 * t1160);
-        let t1172 = neg_mul_add(t1155, t1170, neg_mul_add(t863, t1158, t844) - t1171);
-        let t1173 = neg_mul_add(parameters.actuator_axis[5][2], t959, t1172);
-        let t1174 = parameters.actuator_axis[5][1] * t1168;
-        let t1175 = mul_add(parameters.actuator_axis[5][0], t1163, t1174);
-        let t1176 = mul_add(parameters.actuator_axis[5][2], t1173, t1175);
-        let t1177 = neg_mul_add(parameters.platform_point[5][2], t890, t872);
-        let t1178 = parameters.platform_point[5][1] * t889;
-        let t1179 = t1177 - mul_add(parameters.platform_point[5][0], t888, t1178);
-        let t1180 = neg_mul_add(parameters.platform_point[5][2], t881, t866);
-        let t1181 = parameters.platform_point[5][1] * t878;
-        let t1182 = t1180 - mul_add(parameters.platform_point[5][0], t875, t1181);
-        let t1183 = neg_mul_add(parameters.platform_point[5][2], t887, t869);
-        let t1184 = parameters.platform_point[5][1] * t885;
-        let t1185 = t1183 - mul_add(parameters.platform_point[5][0], t883, t1184);
-        let t1186 = parameters.actuator_axis[5][1] * t1185;
-        let t1187 = mul_add(parameters.actuator_axis[5][0], t1182, t1186);
-        let t1188 = mul_add(parameters.actuator_axis[5][2], t1179, t1187);
-        let t1189 = mul_add(t1170, t1170, mul_add(t1157, t1157, t1165 * t1165));
-        let t1190 = mul_add(parameters.mover_offset[5], t1189, t1176);
+        let t1170 = c(2.0) * t849;
+        let t1171 = parameters.actuator_axis[5][1] * t760;
+        let t1172 = mul_sub(parameters.actuator_axis[5][2], t757, t1171);
+        let t1173 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
+        let t1174 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t1175 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
+        let t1176 = mul_add(t871, t1173, t855) - mul_add(t869, t1174, t870 * t1175);
+        let t1177 = neg_mul_add(t1170, t1172, t1176);
+        let t1178 = neg_mul_add(parameters.actuator_axis[5][0], t974, t1177);
+        let t1179 = parameters.actuator_axis[5][2] * t754;
+        let t1180 = mul_sub(parameters.actuator_axis[5][0], t760, t1179);
+        let t1181 = mul_sub(t872, t1174, t874 * t1175);
+        let t1182 = neg_mul_add(t1170, t1180, t1181 + neg_mul_add(t875, t1173, t857));
+        let t1183 = neg_mul_add(parameters.actuator_axis[5][1], t974, t1182);
+        let t1184 = parameters.actuator_axis[5][0] * t757;
+        let t1185 = mul_sub(parameters.actuator_axis[5][1], t754, t1184);
+        let t1186 = mul_sub(t876, t1174, t877 * t1175);
+        let t1187 = neg_mul_add(t1170, t1185, neg_mul_add(t878, t1173, t859) - t1186);
+        let t1188 = neg_mul_add(parameters.actuator_axis[5][2], t974, t1187);
+        let t1189 = parameters.actuator_axis[5][1] * t1183;
+        let t1190 = mul_add(parameters.actuator_axis[5][0], t1178, t1189);
+        let t1191 = mul_add(parameters.actuator_axis[5][2], t1188, t1190);
+        let t1192 = neg_mul_add(parameters.platform_point[5][2], t905, t887);
+        let t1193 = parameters.platform_point[5][1] * t904;
+        let t1194 = t1192 - mul_add(parameters.platform_point[5][0], t903, t1193);
+        let t1195 = neg_mul_add(parameters.platform_point[5][2], t896, t881);
+        let t1196 = parameters.platform_point[5][1] * t893;
+        let t1197 = t1195 - mul_add(parameters.platform_point[5][0], t890, t1196);
+        let t1198 = neg_mul_add(parameters.platform_point[5][2], t902, t884);
+        let t1199 = parameters.platform_point[5][1] * t900;
+        let t1200 = t1198 - mul_add(parameters.platform_point[5][0], t898, t1199);
+        let t1201 = parameters.actuator_axis[5][1] * t1200;
+        let t1202 = mul_add(parameters.actuator_axis[5][0], t1197, t1201);
+        let t1203 = mul_add(parameters.actuator_axis[5][2], t1194, t1202);
+        let t1204 = mul_add(t1185, t1185, mul_add(t1172, t1172, t1180 * t1180));
+        let t1205 = mul_add(parameters.mover_offset[5], t1204, t1191);
         // leg 6: remaining leg inertia less weight at the platform joint
-        let t1191 = t341 * t1163;
-        let t1192 = t341 * t1168;
-        let t1193 = t341 * t1173;
+        let t1206 = t341 * t1178;
+        let t1207 = t341 * t1183;
+        let t1208 = t341 * t1188;
         // leg 1: spring and damper force along the actuator
-        let t1194 = parameters.rest_length[0] + t173;
-        let t1195 = parameters.axial_damping[0] * t794;
-        let t1196 = mul_add(parameters.axial_stiffness[0], t1194, t1195);
+        let t1209 = parameters.rest_length[0] + t173;
+        let t1210 = parameters.axial_damping[0] * t809;
+        let t1211 = mul_add(parameters.axial_stiffness[0], t1209, t1210);
         // leg 2: spring and damper force along the actuator
-        let t1197 = parameters.rest_length[1] + t184;
-        let t1198 = parameters.axial_damping[1] * t802;
-        let t1199 = mul_add(parameters.axial_stiffness[1], t1197, t1198);
+        let t1212 = parameters.rest_length[1] + t184;
+        let t1213 = parameters.axial_damping[1] * t817;
+        let t1214 = mul_add(parameters.axial_stiffness[1], t1212, t1213);
         // leg 3: spring and damper force along the actuator
-        let t1200 = parameters.rest_length[2] + t195;
-        let t1201 = parameters.axial_damping[2] * t810;
-        let t1202 = mul_add(parameters.axial_stiffness[2], t1200, t1201);
+        let t1215 = parameters.rest_length[2] + t195;
+        let t1216 = parameters.axial_damping[2] * t825;
+        let t1217 = mul_add(parameters.axial_stiffness[2], t1215, t1216);
         // leg 4: spring and damper force along the actuator
-        let t1203 = parameters.rest_length[3] + t206;
-        let t1204 = parameters.axial_damping[3] * t818;
-        let t1205 = mul_add(parameters.axial_stiffness[3], t1203, t1204);
+        let t1218 = parameters.rest_length[3] + t206;
+        let t1219 = parameters.axial_damping[3] * t833;
+        let t1220 = mul_add(parameters.axial_stiffness[3], t1218, t1219);
         // leg 5: spring and damper force along the actuator
-        let t1206 = parameters.rest_length[4] + t217;
-        let t1207 = parameters.axial_damping[4] * t826;
-        let t1208 = mul_add(parameters.axial_stiffness[4], t1206, t1207);
+        let t1221 = parameters.rest_length[4] + t217;
+        let t1222 = parameters.axial_damping[4] * t841;
+        let t1223 = mul_add(parameters.axial_stiffness[4], t1221, t1222);
         // leg 6: spring and damper force along the actuator
-        let t1209 = parameters.rest_length[5] + t228;
-        let t1210 = parameters.axial_damping[5] * t834;
-        let t1211 = mul_add(parameters.axial_stiffness[5], t1209, t1210);
+        let t1224 = parameters.rest_length[5] + t228;
+        let t1225 = parameters.axial_damping[5] * t849;
+        let t1226 = mul_add(parameters.axial_stiffness[5], t1224, t1225);
         // leg 1: moment about the platform origin of the leg's inertia at its joint
-        let t1212 = mul_sub(t42, t998, t45 * t997);
-        let t1213 = mul_sub(t45, t996, t39 * t998);
-        let t1214 = mul_sub(t39, t997, t42 * t996);
+        let t1227 = mul_sub(t42, t1013, t45 * t1012);
+        let t1228 = mul_sub(t45, t1011, t39 * t1013);
+        let t1229 = mul_sub(t39, t1012, t42 * t1011);
         // leg 2: moment about the platform origin of the leg's inertia at its joint
-        let t1215 = mul_sub(t63, t1037, t66 * t1036);
-        let t1216 = mul_sub(t66, t1035, t60 * t1037);
-        let t1217 = mul_sub(t60, t1036, t63 * t1035);
+        let t1230 = mul_sub(t63, t1052, t66 * t1051);
+        let t1231 = mul_sub(t66, t1050, t60 * t1052);
+        let t1232 = mul_sub(t60, t1051, t63 * t1050);
         // leg 3: moment about the platform origin of the leg's inertia at its joint
-        let t1218 = mul_sub(t84, t1076, t87 * t1075);
-        let t1219 = mul_sub(t87, t1074, t81 * t1076);
-        let t1220 = mul_sub(t81, t1075, t84 * t1074);
+        let t1233 = mul_sub(t84, t1091, t87 * t1090);
+        let t1234 = mul_sub(t87, t1089, t81 * t1091);
+        let t1235 = mul_sub(t81, t1090, t84 * t1089);
         // leg 5: moment about the platform origin of the leg's inertia at its joint
-        let t1221 = mul_sub(t126, t1154, t129 * t1153);
-        let t1222 = mul_sub(t129, t1152, t123 * t1154);
-        let t1223 = mul_sub(t123, t1153, t126 * t1152);
+        let t1236 = mul_sub(t126, t1169, t129 * t1168);
+        let t1237 = mul_sub(t129, t1167, t123 * t1169);
+        let t1238 = mul_sub(t123, t1168, t126 * t1167);
         // inertia force less weight, without the actuators' own shares
-        let t1224 = mul_add(t365, t881, mul_add(t351, t875, t358 * t878));
-        let t1225 = mul_add(t306, t968, mul_sub(t344, t866, t1224));
-        let t1226 = mul_add(t320, t1046, mul_add(t313, t1007, t1225));
-        let t1227 = mul_add(t334, t1124, mul_add(t327, t1085, t1226));
-        let t1228 = mul_add(t341, t1163, t1227);
-        let t1229 = mul_add(t365, t887, mul_add(t351, t883, t358 * t885));
-        let t1230 = mul_add(t306, t973, mul_sub(t344, t869, t1229));
-        let t1231 = mul_add(t320, t1051, mul_add(t313, t1012, t1230));
-        let t1232 = mul_add(t334, t1129, mul_add(t327, t1090, t1231));
-        let t1233 = mul_add(t341, t1168, t1232);
-        let t1234 = mul_add(t365, t890, mul_add(t351, t888, t358 * t889));
-        let t1235 = mul_add(t306, t978, mul_sub(t344, t872, t1234));
-        let t1236 = mul_add(t320, t1056, mul_add(t313, t1017, t1235));
-        let t1237 = mul_add(t334, t1134, mul_add(t327, t1095, t1236));
-        let t1238 = mul_add(t341, t1173, t1237);
+        let t1239 = mul_add(t365, t896, mul_add(t351, t890, t358 * t893));
+        let t1240 = mul_add(t306, t983, mul_sub(t344, t881, t1239));
+        let t1241 = mul_add(t320, t1061, mul_add(t313, t1022, t1240));
+        let t1242 = mul_add(t334, t1139, mul_add(t327, t1100, t1241));
+        let t1243 = mul_add(t341, t1178, t1242);
+        let t1244 = mul_add(t365, t902, mul_add(t351, t898, t358 * t900));
+        let t1245 = mul_add(t306, t988, mul_sub(t344, t884, t1244));
+        let t1246 = mul_add(t320, t1066, mul_add(t313, t1027, t1245));
+        let t1247 = mul_add(t334, t1144, mul_add(t327, t1105, t1246));
+        let t1248 = mul_add(t341, t1183, t1247);
+        let t1249 = mul_add(t365, t905, mul_add(t351, t903, t358 * t904));
+        let t1250 = mul_add(t306, t993, mul_sub(t344, t887, t1249));
+        let t1251 = mul_add(t320, t1071, mul_add(t313, t1032, t1250));
+        let t1252 = mul_add(t334, t1149, mul_add(t327, t1110, t1251));
+        let t1253 = mul_add(t341, t1188, t1252);
         // first moments by platform coordinate of the payload's inertia force
-        let t1239 = mul_add(t401, t881, mul_add(t379, t875, t390 * t878));
-        let t1240 = mul_add(t351, t866, t1239);
-        let t1241 = mul_add(t424, t881, mul_add(t390, t875, t413 * t878));
-        let t1242 = mul_add(t358, t866, t1241);
-        let t1243 = mul_add(t436, t881, mul_add(t401, t875, t424 * t878));
-        let t1244 = mul_add(t365, t866, t1243);
-        let t1245 = mul_add(t401, t887, mul_add(t379, t883, t390 * t885));
-        let t1246 = mul_add(t351, t869, t1245);
-        let t1247 = mul_add(t424, t887, mul_add(t390, t883, t413 * t885));
-        let t1248 = mul_add(t358, t869, t1247);
-        let t1249 = mul_add(t436, t887, mul_add(t401, t883, t424 * t885));
-        let t1250 = mul_add(t365, t869, t1249);
-        let t1251 = mul_add(t401, t890, mul_add(t379, t888, t390 * t889));
-        let t1252 = mul_add(t351, t872, t1251);
-        let t1253 = mul_add(t424, t890, mul_add(t390, t888, t413 * t889));
-        let t1254 = mul_add(t358, t872, t1253);
-        let t1255 = mul_add(t436, t890, mul_add(t401, t888, t424 * t889));
-        let t1256 = mul_add(t365, t872, t1255);
+        let t1254 = mul_add(t401, t896, mul_add(t379, t890, t390 * t893));
+        let t1255 = mul_add(t351, t881, t1254);
+        let t1256 = mul_add(t424, t896, mul_add(t390, t890, t413 * t893));
+        let t1257 = mul_add(t358, t881, t1256);
+        let t1258 = mul_add(t436, t896, mul_add(t401, t890, t424 * t893));
+        let t1259 = mul_add(t365, t881, t1258);
+        let t1260 = mul_add(t401, t902, mul_add(t379, t898, t390 * t900));
+        let t1261 = mul_add(t351, t884, t1260);
+        let t1262 = mul_add(t424, t902, mul_add(t390, t898, t413 * t900));
+        let t1263 = mul_add(t358, t884, t1262);
+        let t1264 = mul_add(t436, t902, mul_add(t401, t898, t424 * t900));
+        let t1265 = mul_add(t365, t884, t1264);
+        let t1266 = mul_add(t401, t905, mul_add(t379, t903, t390 * t904));
+        let t1267 = mul_add(t351, t887, t1266);
+        let t1268 = mul_add(t424, t905, mul_add(t390, t903, t413 * t904));
+        let t1269 = mul_add(t358, t887, t1268);
+        let t1270 = mul_add(t436, t905, mul_add(t401, t903, t424 * t904));
+        let t1271 = mul_add(t365, t887, t1270);
         // moment of the legs' inertia at their joints about the platform origin
-        let t1257 = neg_mul_add(t108, t1114, mul_add(t105, t1115, t1221));
-        let t1258 = t1218 + (t1212 + t1215) + t1257;
-        let t1259 = neg_mul_add(t102, t1115, mul_add(t108, t1113, t1222));
-        let t1260 = t1219 + (t1213 + t1216) + t1259;
-        let t1261 = neg_mul_add(t105, t1113, mul_add(t102, t1114, t1223));
-        let t1262 = t1220 + (t1214 + t1217) + t1261;
+        let t1272 = neg_mul_add(t108, t1129, mul_add(t105, t1130, t1236));
+        let t1273 = t1233 + (t1227 + t1230) + t1272;
+        let t1274 = neg_mul_add(t102, t1130, mul_add(t108, t1128, t1237));
+        let t1275 = t1234 + (t1228 + t1231) + t1274;
+        let t1276 = neg_mul_add(t105, t1128, mul_add(t102, t1129, t1238));
+        let t1277 = t1235 + (t1229 + t1232) + t1276;
         // moment of the inertia force about the platform origin
-        let t1263 = mul_sub(t15, t1254, t24 * t1248);
-        let t1264 = mul_sub(t12, t1252, t21 * t1246) + t1263;
-        let t1265 = mul_add(t147, t1193, t1264 + mul_sub(t18, t1256, t27 * t1250));
-        let t1266 = t1258 + neg_mul_add(t150, t1192, t1265);
-        let t1267 = mul_sub(t24, t1242, t6 * t1254);
-        let t1268 = mul_sub(t21, t1240, t3 * t1252) + t1267;
-        let t1269 = mul_add(t150, t1191, t1268 + mul_sub(t27, t1244, t9 * t1256));
-        let t1270 = t1260 + neg_mul_add(t144, t1193, t1269);
-        let t1271 = mul_sub(t6, t1248, t15 * t1242);
-        let t1272 = mul_sub(t3, t1246, t12 * t1240) + t1271;
-        let t1273 = mul_add(t144, t1192, t1272 + mul_sub(t9, t1250, t18 * t1244));
-        let t1274 = t1262 + neg_mul_add(t147, t1191, t1273);
+        let t1278 = mul_sub(t15, t1269, t24 * t1263);
+        let t1279 = mul_sub(t12, t1267, t21 * t1261) + t1278;
+        let t1280 = mul_add(t147, t1208, t1279 + mul_sub(t18, t1271, t27 * t1265));
+        let t1281 = t1273 + neg_mul_add(t150, t1207, t1280);
+        let t1282 = mul_sub(t24, t1257, t6 * t1269);
+        let t1283 = mul_sub(t21, t1255, t3 * t1267) + t1282;
+        let t1284 = mul_add(t150, t1206, t1283 + mul_sub(t27, t1259, t9 * t1271));
+        let t1285 = t1275 + neg_mul_add(t144, t1208, t1284);
+        let t1286 = mul_sub(t6, t1263, t15 * t1257);
+        let t1287 = mul_sub(t3, t1261, t12 * t1255) + t1286;
+        let t1288 = mul_add(t144, t1207, t1287 + mul_sub(t9, t1265, t18 * t1259));
+        let t1289 = t1277 + neg_mul_add(t147, t1206, t1288);
         // leg 1: force along the actuator that reaches the platform
-        let t1275 = mul_add(t303, t981, mul_sub(t306, t993, t1196));
-        let t1276 = mul_add(parameters.mover_mass[0], t995, t1275);
+        let t1290 = mul_add(t303, t996, mul_sub(t306, t1008, t1211));
+        let t1291 = mul_add(parameters.mover_mass[0], t1010, t1290);
         // leg 2: force along the actuator that reaches the platform
-        let t1277 = mul_add(t310, t1020, mul_sub(t313, t1032, t1199));
-        let t1278 = mul_add(parameters.mover_mass[1], t1034, t1277);
+        let t1292 = mul_add(t310, t1035, mul_sub(t313, t1047, t1214));
+        let t1293 = mul_add(parameters.mover_mass[1], t1049, t1292);
         // leg 3: force along the actuator that reaches the platform
-        let t1279 = mul_add(t317, t1059, mul_sub(t320, t1071, t1202));
-        let t1280 = mul_add(parameters.mover_mass[2], t1073, t1279);
+        let t1294 = mul_add(t317, t1074, mul_sub(t320, t1086, t1217));
+        let t1295 = mul_add(parameters.mover_mass[2], t1088, t1294);
         // leg 4: force along the actuator that reaches the platform
-        let t1281 = mul_add(t324, t1098, mul_sub(t327, t1110, t1205));
-        let t1282 = mul_add(parameters.mover_mass[3], t1112, t1281);
+        let t1296 = mul_add(t324, t1113, mul_sub(t327, t1125, t1220));
+        let t1297 = mul_add(parameters.mover_mass[3], t1127, t1296);
         // leg 5: force along the actuator that reaches the platform
-        let t1283 = mul_add(t331, t1137, mul_sub(t334, t1149, t1208));
-        let t1284 = mul_add(parameters.mover_mass[4], t1151, t1283);
+        let t1298 = mul_add(t331, t1152, mul_sub(t334, t1164, t1223));
+        let t1299 = mul_add(parameters.mover_mass[4], t1166, t1298);
         // leg 6: force along the actuator that reaches the platform
-        let t1285 = mul_add(t338, t1176, mul_sub(t341, t1188, t1211));
-        let t1286 = mul_add(parameters.mover_mass[5], t1190, t1285);
+        let t1300 = mul_add(t338, t1191, mul_sub(t341, t1203, t1226));
+        let t1301 = mul_add(parameters.mover_mass[5], t1205, t1300);
         // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-        let t1287 = mul_add(base_rotation[0][0], t1228, base_rotation[0][1] * t1233);
-        let t1288 = neg_mul_add(t278, t1286, mul_add(base_rotation[0][2], t1238, t1287));
-        let t1289 = mul_add(t260, t1280, mul_add(t248, t1276, t254 * t1278));
-        let t1290 = t1288 - mul_add(t272, t1284, mul_add(t266, t1282, t1289));
-        let t1291 = mul_add(base_rotation[1][0], t1228, base_rotation[1][1] * t1233);
-        let t1292 = neg_mul_add(t280, t1286, mul_add(base_rotation[1][2], t1238, t1291));
-        let t1293 = mul_add(t262, t1280, mul_add(t250, t1276, t256 * t1278));
-        let t1294 = t1292 - mul_add(t274, t1284, mul_add(t268, t1282, t1293));
-        let t1295 = mul_add(base_rotation[2][0], t1228, base_rotation[2][1] * t1233);
-        let t1296 = neg_mul_add(t282, t1286, mul_add(base_rotation[2][2], t1238, t1295));
-        let t1297 = mul_add(t264, t1280, mul_add(t252, t1276, t258 * t1278));
-        let t1298 = t1296 - mul_add(t276, t1284, mul_add(t270, t1282, t1297));
-        let t1299 = mul_add(base_rotation[0][0], t1266, base_rotation[0][1] * t1270);
-        let t1300 = neg_mul_add(t298, t1286, mul_add(base_rotation[0][2], t1274, t1299));
-        let t1301 = mul_add(t289, t1280, mul_add(t283, t1276, t286 * t1278));
-        let t1302 = t1300 - mul_add(t295, t1284, mul_add(t292, t1282, t1301));
-        let t1303 = mul_add(base_rotation[1][0], t1266, base_rotation[1][1] * t1270);
-        let t1304 = neg_mul_add(t299, t1286, mul_add(base_rotation[1][2], t1274, t1303));
-        let t1305 = mul_add(t290, t1280, mul_add(t284, t1276, t287 * t1278));
-        let t1306 = t1304 - mul_add(t296, t1284, mul_add(t293, t1282, t1305));
-        let t1307 = mul_add(base_rotation[2][0], t1266, base_rotation[2][1] * t1270);
-        let t1308 = neg_mul_add(t300, t1286, mul_add(base_rotation[2][2], t1274, t1307));
-        let t1309 = mul_add(t291, t1280, mul_add(t285, t1276, t288 * t1278));
-        let t1310 = t1308 - mul_add(t297, t1284, mul_add(t294, t1282, t1309));
-        total_bias[0] = -t1290;
-        total_bias[1] = -t1294;
-        total_bias[2] = -t1298;
-        total_bias[3] = -t1302;
-        total_bias[4] = -t1306;
-        total_bias[5] = -t1310;
+        let t1302 = mul_add(base_rotation[0][0], t1243, base_rotation[0][1] * t1248);
+        let t1303 = neg_mul_add(t278, t1301, mul_add(base_rotation[0][2], t1253, t1302));
+        let t1304 = mul_add(t260, t1295, mul_add(t248, t1291, t254 * t1293));
+        let t1305 = t1303 - mul_add(t272, t1299, mul_add(t266, t1297, t1304));
+        let t1306 = mul_add(base_rotation[1][0], t1243, base_rotation[1][1] * t1248);
+        let t1307 = neg_mul_add(t280, t1301, mul_add(base_rotation[1][2], t1253, t1306));
+        let t1308 = mul_add(t262, t1295, mul_add(t250, t1291, t256 * t1293));
+        let t1309 = t1307 - mul_add(t274, t1299, mul_add(t268, t1297, t1308));
+        let t1310 = mul_add(base_rotation[2][0], t1243, base_rotation[2][1] * t1248);
+        let t1311 = neg_mul_add(t282, t1301, mul_add(base_rotation[2][2], t1253, t1310));
+        let t1312 = mul_add(t264, t1295, mul_add(t252, t1291, t258 * t1293));
+        let t1313 = t1311 - mul_add(t276, t1299, mul_add(t270, t1297, t1312));
+        let t1314 = mul_add(base_rotation[0][0], t1281, base_rotation[0][1] * t1285);
+        let t1315 = neg_mul_add(t298, t1301, mul_add(base_rotation[0][2], t1289, t1314));
+        let t1316 = mul_add(t289, t1295, mul_add(t283, t1291, t286 * t1293));
+        let t1317 = t1315 - mul_add(t295, t1299, mul_add(t292, t1297, t1316));
+        let t1318 = mul_add(base_rotation[1][0], t1281, base_rotation[1][1] * t1285);
+        let t1319 = neg_mul_add(t299, t1301, mul_add(base_rotation[1][2], t1289, t1318));
+        let t1320 = mul_add(t290, t1295, mul_add(t284, t1291, t287 * t1293));
+        let t1321 = t1319 - mul_add(t296, t1299, mul_add(t293, t1297, t1320));
+        let t1322 = mul_add(base_rotation[2][0], t1281, base_rotation[2][1] * t1285);
+        let t1323 = neg_mul_add(t300, t1301, mul_add(base_rotation[2][2], t1289, t1322));
+        let t1324 = mul_add(t291, t1295, mul_add(t285, t1291, t288 * t1293));
+        let t1325 = t1323 - mul_add(t297, t1299, mul_add(t294, t1297, t1324));
+        total_bias[0] = -t1305;
+        total_bias[1] = -t1309;
+        total_bias[2] = -t1313;
+        total_bias[3] = -t1317;
+        total_bias[4] = -t1321;
+        total_bias[5] = -t1325;
         // inertia less external wrench that the actuators must balance
-        let t1311 = mul_add(platform_acceleration[0], t678, platform_acceleration[1] * t569);
-        let t1312 = mul_add(platform_acceleration[2], t570, t1311);
-        let t1313 = neg_mul_add(platform_acceleration[3], t576, t1312);
-        let t1314 = neg_mul_add(platform_acceleration[4], t681, t1313);
-        let t1315 = neg_mul_add(platform_acceleration[5], t684, t1314) - t1290;
-        let t1316 = t1315 - external_wrench[0];
-        let t1317 = mul_add(platform_acceleration[0], t569, platform_acceleration[1] * t685);
-        let t1318 = mul_add(platform_acceleration[2], t594, t1317);
-        let t1319 = neg_mul_add(platform_acceleration[3], t686, t1318);
-        let t1320 = mul_add(platform_acceleration[4], t614, t1319);
-        let t1321 = neg_mul_add(platform_acceleration[5], t689, t1320) - t1294;
-        let t1322 = t1321 - external_wrench[1];
-        let t1323 = mul_add(platform_acceleration[0], t570, platform_acceleration[1] * t594);
-        let t1324 = mul_add(platform_acceleration[2], t690, t1323);
-        let t1325 = neg_mul_add(platform_acceleration[3], t691, t1324);
-        let t1326 = neg_mul_add(platform_acceleration[4], t692, t1325);
-        let t1327 = neg_mul_add(platform_acceleration[5], t645, t1326) - t1298;
-        let t1328 = t1327 - external_wrench[2];
-        let t1329 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1330 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1329);
-        let t1331 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1330);
-        let t1332 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1333 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1332);
-        let t1334 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1333);
-        let t1335 = mul_add(external_wrench[2], t1334, external_wrench[3]);
-        let t1336 = neg_mul_add(external_wrench[1], t1331, t1335);
-        let t1337 = mul_add(platform_acceleration[0], t576, platform_acceleration[1] * t686);
-        let t1338 = mul_add(platform_acceleration[2], t691, t1337);
-        let t1339 = neg_mul_add(platform_acceleration[3], t702, t1338);
-        let t1340 = mul_add(platform_acceleration[4], t705, t1339);
-        let t1341 = mul_sub(platform_acceleration[5], t708, t1336) - t1340 - t1302;
-        let t1342 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1343 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1342);
-        let t1344 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1343);
-        let t1345 = mul_add(external_wrench[0], t1331, external_wrench[4]);
-        let t1346 = neg_mul_add(external_wrench[2], t1344, t1345);
-        let t1347 = mul_sub(platform_acceleration[0], t681, platform_acceleration[1] * t614);
-        let t1348 = mul_add(platform_acceleration[2], t692, t1347);
-        let t1349 = mul_add(platform_acceleration[3], t705, t1348);
-        let t1350 = neg_mul_add(platform_acceleration[4], t717, t1349);
-        let t1351 = mul_sub(platform_acceleration[5], t720, t1346) - t1350 - t1306;
-        let t1352 = mul_add(external_wrench[1], t1344, external_wrench[5]);
-        let t1353 = neg_mul_add(external_wrench[0], t1334, t1352);
-        let t1354 = mul_add(platform_acceleration[0], t684, platform_acceleration[1] * t689);
-        let t1355 = mul_add(platform_acceleration[2], t645, t1354);
-        let t1356 = neg_mul_add(platform_acceleration[3], t708, t1355);
-        let t1357 = neg_mul_add(platform_acceleration[4], t720, t1356);
-        let t1358 = mul_sub(platform_acceleration[5], t729, t1353) - t1357 - t1310;
+        let t1326 = mul_add(platform_acceleration[0], t693, platform_acceleration[1] * t588);
+        let t1327 = mul_add(platform_acceleration[2], t589, t1326);
+        let t1328 = neg_mul_add(platform_acceleration[3], t595, t1327);
+        let t1329 = neg_mul_add(platform_acceleration[4], t696, t1328);
+        let t1330 = neg_mul_add(platform_acceleration[5], t699, t1329) - t1305;
+        let t1331 = t1330 - external_wrench[0];
+        let t1332 = mul_add(platform_acceleration[0], t588, platform_acceleration[1] * t700);
+        let t1333 = mul_add(platform_acceleration[2], t611, t1332);
+        let t1334 = neg_mul_add(platform_acceleration[3], t701, t1333);
+        let t1335 = mul_add(platform_acceleration[4], t631, t1334);
+        let t1336 = neg_mul_add(platform_acceleration[5], t704, t1335) - t1309;
+        let t1337 = t1336 - external_wrench[1];
+        let t1338 = mul_add(platform_acceleration[0], t589, platform_acceleration[1] * t611);
+        let t1339 = mul_add(platform_acceleration[2], t705, t1338);
+        let t1340 = neg_mul_add(platform_acceleration[3], t706, t1339);
+        let t1341 = neg_mul_add(platform_acceleration[4], t707, t1340);
+        let t1342 = neg_mul_add(platform_acceleration[5], t660, t1341) - t1313;
+        let t1343 = t1342 - external_wrench[2];
+        let t1344 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1345 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1344);
+        let t1346 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1345);
+        let t1347 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1348 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1347);
+        let t1349 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1348);
+        let t1350 = mul_add(external_wrench[2], t1349, external_wrench[3]);
+        let t1351 = neg_mul_add(external_wrench[1], t1346, t1350);
+        let t1352 = mul_add(platform_acceleration[0], t595, platform_acceleration[1] * t701);
+        let t1353 = mul_add(platform_acceleration[2], t706, t1352);
+        let t1354 = neg_mul_add(platform_acceleration[3], t717, t1353);
+        let t1355 = mul_add(platform_acceleration[4], t720, t1354);
+        let t1356 = mul_sub(platform_acceleration[5], t723, t1351) - t1355 - t1317;
+        let t1357 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1358 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1357);
+        let t1359 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1358);
+        let t1360 = mul_add(external_wrench[0], t1346, external_wrench[4]);
+        let t1361 = neg_mul_add(external_wrench[2], t1359, t1360);
+        let t1362 = mul_sub(platform_acceleration[0], t696, platform_acceleration[1] * t631);
+        let t1363 = mul_add(platform_acceleration[2], t707, t1362);
+        let t1364 = mul_add(platform_acceleration[3], t720, t1363);
+        let t1365 = neg_mul_add(platform_acceleration[4], t732, t1364);
+        let t1366 = mul_sub(platform_acceleration[5], t735, t1361) - t1365 - t1321;
+        let t1367 = mul_add(external_wrench[1], t1359, external_wrench[5]);
+        let t1368 = neg_mul_add(external_wrench[0], t1349, t1367);
+        let t1369 = mul_add(platform_acceleration[0], t699, platform_acceleration[1] * t704);
+        let t1370 = mul_add(platform_acceleration[2], t660, t1369);
+        let t1371 = neg_mul_add(platform_acceleration[3], t723, t1370);
+        let t1372 = neg_mul_add(platform_acceleration[4], t735, t1371);
+        let t1373 = mul_sub(platform_acceleration[5], t744, t1368) - t1372 - t1325;
         // force along the actuator that balances the remaining wrench
         let axial_reaction = solve_general(
             &[
@@ -24771,7 +24801,7 @@ pub fn control<T: Scalar>(
                 [t284, t287, t290, t293, t296, t299],
                 [t285, t288, t291, t294, t297, t300],
             ],
-            &[t1316, t1322, t1328, t1341, t1351, t1358],
+            &[t1331, t1337, t1343, t1356, t1366, t1373],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -33680,1075 +33710,1105 @@ pub fn control_in_lanes<P: Triple>(
     let t127 = mul_add(t5, P::splat(parameters.gravity[2]), t113);
     // rate of that angular velocity
     let t128 = mul_add(t95, t123, neg_mul_add(t85, t109, t88));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t129 = w(1.0) - t117;
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t129 = mul_add(t37, P::splat(P::lane(t93, 0)), t114);
+    let t130 = mul_add(t37, P::splat(P::lane(t93, 0)), t114);
     // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t130 = mul_add(t117, t120, t97);
+    let t131 = mul_add(t117, t120, t97);
     // acceleration per base coordinate of points that move with the base
-    let t131 = P::triple([P::lane(t116, 0), -P::lane(t104, 1), P::lane(t112, 2)]);
+    let t132 = P::triple([P::lane(t116, 0), -P::lane(t104, 1), P::lane(t112, 2)]);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t132 = mul_add(t33, P::splat(P::lane(t93, 2)), t125);
+    let t133 = mul_add(t33, P::splat(P::lane(t93, 2)), t125);
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t133 = neg_mul_add(t40, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
+    let t134 = neg_mul_add(t40, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t134 = neg_mul_add(t33, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    let t135 = neg_mul_add(t33, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t135 = P::splat(P::lane(t22, 1)) * t131;
+    let t136 = P::splat(P::lane(t22, 1)) * t132;
     // second moment of payload and platform-side leg ends
-    let t136 = mul_add(t130, t12 * t12, t121 * (t19 * t19));
-    let t137 = mul_add(t130, t9 * t12, t121 * (t18 * t19));
-    let t138 = mul_add(t130, t12 * t13, t121 * (t19 * t20));
+    let t137 = mul_add(t131, t12 * t12, t121 * (t19 * t19));
+    let t138 = mul_add(t131, t9 * t12, t121 * (t18 * t19));
+    let t139 = mul_add(t131, t12 * t13, t121 * (t19 * t20));
     // acceleration per base coordinate of points that move with the base
-    let t139 = P::triple([-P::lane(t104, 0), P::lane(t112, 1), P::lane(t116, 2)]);
-    let t140 = P::triple([P::lane(t112, 0), P::lane(t116, 1), -P::lane(t104, 2)]);
+    let t140 = P::triple([-P::lane(t104, 0), P::lane(t112, 1), P::lane(t116, 2)]);
+    let t141 = P::triple([P::lane(t112, 0), P::lane(t116, 1), -P::lane(t104, 2)]);
     // velocity of the platform origin relative to the base
-    let t141 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    let t142 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t142 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
+    let t143 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t143 = t37 * P::splat(P::lane(t128, 0));
+    let t144 = t37 * P::splat(P::lane(t128, 0));
     // legs 4, 5, 6: reciprocal of that extent
-    let t144 = w(1.0) / t89;
+    let t145 = w(1.0) / t89;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t146 = mul_add(t129, t118 * t129, t97);
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t145 = neg_mul_add(t47, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    let t147 = neg_mul_add(t47, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t146 = mul_add(P::splat(P::lane(t22, 2)), t140, t126 + t127);
+    let t148 = mul_add(P::splat(P::lane(t22, 2)), t141, t126 + t127);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t149 = w(1.0) - t105;
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t147 = mul_add(t47, P::splat(P::lane(t93, 0)), t133);
+    let t150 = mul_add(t47, P::splat(P::lane(t93, 0)), t134);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t148 = mul_add(t32, P::splat(P::lane(t93, 1)), t134);
+    let t151 = mul_add(t32, P::splat(P::lane(t93, 1)), t135);
     // velocity of the platform origin relative to the base
-    let t149 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    let t152 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t150 = t33 * P::splat(P::lane(t128, 2));
-    let t151 = mul_sub(t32, P::splat(P::lane(t128, 2)), t143);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t152 = mul_add(t36, P::splat(P::lane(t93, 2)), t145);
-    let t153 = neg_mul_add(t36, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t154 = mul_add(P::splat(P::lane(t22, 0)), t139, t135) + t146;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t155 = mul_add(t51, t148, mul_add(t44, t132, t39 * t129));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t156 = mul_sub(t37, P::splat(P::lane(t128, 1)), t150);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t157 = mul_add(t62, t124, t39);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t158 = mul_add(P::splat(P::lane(t93, 2)), t132, t151);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t159 = t47 * P::splat(P::lane(t128, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t160 = t32 * P::splat(P::lane(t128, 1));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t161 = w(1.0) - t117;
-    // second moment of payload and platform-side leg ends
-    let t162 = mul_add(t130, t9 * t9, t121 * (t18 * t18));
-    let t163 = mul_add(t130, t9 * t13, t121 * (t18 * t20));
-    let t164 = P::triple([P::lane(t136, 0), P::lane(t137, 0), P::lane(t138, 0)]);
-    let t165 = P::triple([P::lane(t136, 1), P::lane(t137, 1), P::lane(t138, 1)]);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t166 = mul_sub(t122, t149, t141 * t142) + t154;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t167 = mul_add(t40, P::splat(P::lane(t93, 1)), t153);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t168 = mul_add(t63, t124, t44);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t169 = P::splat(base_rotation[0][1]) * t39;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t170 = neg_mul_add(t39, t155, t129);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t171 = mul_add(P::splat(P::lane(t93, 1)), t148, t156);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t172 = t36 * P::splat(P::lane(t128, 2));
-    let t173 = mul_sub(t40, P::splat(P::lane(t128, 2)), t159);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t174 = mul_sub(t33, P::splat(P::lane(t128, 0)), t160);
-    // second moment of payload and platform-side leg ends
-    let t175 = P::triple([P::lane(t136, 2), P::lane(t137, 2), P::lane(t138, 2)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t176 = P::splat(base_rotation[1][1]) * t39;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t177 = neg_mul_add(P::splat(P::lane(t93, 0)), t148, t158);
-    // legs 1, 2, 3: actuator length d
-    let t178 = t57 - t81;
-    // second moment of payload and platform-side leg ends
-    let t179 = t164 + t165 + t175;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t180 = P::splat(base_rotation[2][1]) * t39;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t181 = P::splat(base_rotation[0][1]) * t157;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t182 = mul_add(P::splat(base_rotation[0][0]), t44, t169);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t183 = neg_mul_add(t44, t155, t132);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t184 = mul_add(t56, t167, mul_add(t54, t152, t52 * t147));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t185 = mul_sub(t47, P::splat(P::lane(t128, 1)), t172);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t186 = mul_add(t71, t144, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t187 = mul_add(t65, t124, t51);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t188 = P::splat(base_rotation[1][1]) * t157;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t189 = mul_add(t161, t118 * t161, t97);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t190 = mul_add(P::splat(base_rotation[1][0]), t44, t176);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t191 = neg_mul_add(P::splat(P::lane(t93, 2)), t129, t171);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t192 = mul_add(P::splat(P::lane(t93, 2)), t152, t173);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t193 = mul_add(P::splat(P::lane(t93, 0)), t129, t174);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t194 = t40 * P::splat(P::lane(t128, 1));
-    // legs 1, 2, 3: gradient of the actuator length
-    let t195 = P::splat(base_rotation[2][1]) * t157;
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t196 = w(1.0) - t105;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t197 = mul_add(P::splat(base_rotation[2][0]), t44, t180);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t198 = P::splat(P::lane(t166, 1)) + t177;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t199 = mul_add(t39, t178, t21);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t200 = mul_add(P::splat(base_rotation[0][0]), t168, t181);
-    // second moment of payload and platform-side leg ends
-    let t201 = mul_add(t130, t13 * t13, t121 * (t20 * t20));
-    let t202 = P::lane(t163, 1) + P::lane(t163, 0);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t203 = mul_add(t72, t144, t54);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t204 = mul_add(P::splat(base_rotation[1][0]), t168, t188);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
-    let t205 = neg_mul_add(t120, t161, t97);
+    let t153 = t33 * P::splat(P::lane(t128, 2));
+    let t154 = mul_sub(t32, P::splat(P::lane(t128, 2)), t144);
     // constant and copied elements
-    let t206 =
+    let t155 =
         P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t207 = P::splat(base_rotation[1][1]) * t52;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t208 = neg_mul_add(t52, t184, t147);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t209 = neg_mul_add(t51, t155, t148);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t210 = mul_add(P::splat(P::lane(t93, 1)), t167, t185);
-    let t211 = mul_sub(t36, P::splat(P::lane(t128, 0)), t194);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t212 = mul_add(P::splat(base_rotation[2][0]), t168, t195);
     // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
-    let t213 = t189 + t206;
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t214 = mul_add(t148, t187, mul_add(t132, t168, t129 * t157));
+    let t156 = t146 + t155;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t157 = mul_add(t36, P::splat(P::lane(t93, 2)), t147);
+    let t158 = neg_mul_add(t36, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t159 = mul_add(P::splat(P::lane(t22, 0)), t140, t136) + t148;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t160 = mul_add(t51, t151, mul_add(t44, t133, t39 * t130));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t215 = t191 + P::splat(P::lane(t166, 0));
+    let t161 = mul_sub(t37, P::splat(P::lane(t128, 1)), t153);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t162 = mul_add(t62, t124, t39);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t163 = mul_add(P::splat(P::lane(t93, 2)), t133, t154);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t216 = neg_mul_add(P::splat(P::lane(t93, 0)), t167, t192);
+    let t164 = t47 * P::splat(P::lane(t128, 0));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t217 = neg_mul_add(P::splat(P::lane(t93, 1)), t132, t193);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t218 = mul_add(t44, t178, t38);
-    let t219 = mul_add(t51, t178, t46);
-    // legs 4, 5, 6: actuator length d
-    let t220 = t64 - t89;
-    // second moment of payload and platform-side leg ends
-    let t221 = P::triple([P::lane(t179, 1), P::lane(t162, 2), P::lane(t163, 2)]);
-    let t222 = P::triple([c(0.0), P::lane(t162, 1) + P::lane(t162, 0), t202]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t223 = P::splat(P::lane(t116, 0)) * t199;
-    let t224 = P::splat(P::lane(t104, 1)) * t199;
-    let t225 = P::splat(P::lane(t112, 2)) * t199;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t226 = mul_add(P::splat(base_rotation[0][2]), t187, t200);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t227 = P::splat(base_rotation[1][1]) * t186;
-    // second moment of payload and platform-side leg ends
-    let t228 = t221 + t222;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t229 = P::splat(base_rotation[0][1]) * t52;
-    let t230 = mul_add(P::splat(base_rotation[1][0]), t54, t207);
-    let t231 = P::splat(base_rotation[2][1]) * t52;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t232 = neg_mul_add(t54, t184, t152);
-    // rotation of the platform seen from the base
-    let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t234 = mul_add(t73, t144, t56);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t235 = mul_add(P::splat(base_rotation[1][2]), t187, t204);
+    let t165 = t32 * P::splat(P::lane(t128, 1));
     // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t236 = mul_add(t196, t106 * t196, t87);
+    let t166 = mul_add(t149, t106 * t149, t87);
+    // second moment of payload and platform-side leg ends
+    let t167 = mul_add(t131, t9 * t9, t121 * (t18 * t18));
+    let t168 = mul_add(t131, t9 * t13, t121 * (t18 * t20));
+    let t169 = P::triple([P::lane(t137, 0), P::lane(t138, 0), P::lane(t139, 0)]);
+    let t170 = P::triple([P::lane(t137, 1), P::lane(t138, 1), P::lane(t139, 1)]);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t237 = t213 * w(0.5);
-    let t238 = t205 * mul_add(P::splat(base_rotation[0][2]), t51, t182);
-    // acceleration per platform coordinate of points of the platform
-    let t239 = mul_sub(t83, t233, t14 * t119);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t240 = neg_mul_add(P::splat(P::lane(t93, 2)), t147, t210);
-    let t241 = mul_add(P::splat(P::lane(t93, 0)), t147, t211);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t242 = mul_add(t209, t209, mul_add(t183, t183, t170 * t170));
-    // legs 1, 2, 3: gradient of the actuator length
-    let t243 = mul_add(P::splat(base_rotation[2][2]), t187, t212);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t244 = t205 * mul_add(P::splat(base_rotation[1][2]), t51, t190);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t245 = t155 - t214;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t246 = P::splat(P::lane(t166, 1)) + t216;
+    let t171 = w(1.0) / t156;
+    // acceleration of the platform origin relative to the base, less w x v
+    let t172 = mul_sub(t122, t152, t142 * t143) + t159;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t173 = mul_add(t40, P::splat(P::lane(t93, 1)), t158);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t174 = mul_add(t63, t124, t44);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t175 = neg_mul_add(t39, t160, t130);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t247 = P::splat(P::lane(t166, 2)) + t217;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t248 = mul_add(P::splat(P::lane(t112, 0)), t219, P::splat(P::lane(t126, 0)));
-    let t249 = t39 * P::splat(P::lane(t75, 2));
-    let t250 = mul_add(P::splat(P::lane(t116, 1)), t219, P::splat(P::lane(t126, 1)));
-    let t251 = t51 * P::splat(P::lane(t75, 0));
-    let t252 = neg_mul_add(P::splat(P::lane(t104, 2)), t219, P::splat(P::lane(t126, 2)));
-    let t253 = t44 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t254 = mul_add(t52, t220, t45);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t255 = P::splat(base_rotation[0][1]) * t186;
-    let t256 = mul_add(P::splat(base_rotation[1][0]), t203, t227);
-    let t257 = P::splat(base_rotation[2][1]) * t186;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t258 = mul_add(P::splat(base_rotation[0][0]), t54, t229);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t259 = t205 * mul_add(P::splat(base_rotation[2][2]), t51, t197);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t260 = mul_add(P::splat(base_rotation[2][0]), t54, t231);
-    // rotation of the platform seen from the base
-    let t261 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    let t262 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t263 = P::splat(platform_rotation[2][1]) * t9;
-    // legs 4, 5, 6: rod's inertial coupling between its ends
-    let t264 = neg_mul_add(t110, t196, t87);
+    let t176 = mul_add(P::splat(P::lane(t93, 1)), t151, t161);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t177 = t36 * P::splat(P::lane(t128, 2));
+    let t178 = mul_sub(t40, P::splat(P::lane(t128, 2)), t164);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t179 = mul_sub(t33, P::splat(P::lane(t128, 0)), t165);
     // constant and copied elements
-    let t265 =
+    let t180 =
         P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t266 = mul_sub(t226, t237, t238);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t267 = neg_mul_add(t56, t184, t167);
-    // acceleration per platform coordinate of points of the platform
-    let t268 = mul_sub(t83, t261, t15 * t119);
-    let t269 = mul_sub(t83, t262, t17 * t119);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t270 = P::splat(platform_rotation[0][1]) * t9;
-    let t271 = P::splat(platform_rotation[1][1]) * t9;
+    // second moment of payload and platform-side leg ends
+    let t181 = P::triple([P::lane(t137, 2), P::lane(t138, 2), P::lane(t139, 2)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t182 = neg_mul_add(P::splat(P::lane(t93, 0)), t151, t163);
+    // legs 1, 2, 3: actuator length d
+    let t183 = t57 - t81;
     // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
-    let t272 = t236 + t265;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t273 = mul_sub(t235, t237, t244);
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t274 = mul_add(t167, t234, mul_add(t152, t203, t147 * t186));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t275 = P::splat(P::lane(t166, 0)) + t240;
-    let t276 = neg_mul_add(P::splat(P::lane(t93, 1)), t152, t241);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t277 = mul_add(t187, t247, mul_add(t168, t215, t157 * t198));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t278 = mul_sub(t51, P::splat(P::lane(t75, 1)), t249);
-    let t279 = mul_sub(t44, P::splat(P::lane(t75, 2)), t251);
-    let t280 = mul_sub(t39, P::splat(P::lane(t75, 0)), t253);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t281 = mul_add(t54, t220, t50);
-    let t282 = mul_add(t56, t220, t55);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t283 = mul_add(P::splat(base_rotation[0][0]), t203, t255);
-    let t284 = mul_add(P::splat(base_rotation[2][0]), t203, t257);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t285 = mul_sub(t237, t243, t259);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t286 = t248 - mul_sub(P::splat(P::lane(t104, 0)), t218, t223);
-    let t287 = t214 * w(2.0);
-    let t288 = mul_sub(P::splat(P::lane(t112, 1)), t218, t224) + t250;
-    let t289 = mul_add(P::splat(P::lane(t116, 2)), t218, t225) + t252;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t290 = P::splat(P::lane(t116, 0)) * t254;
-    let t291 = P::splat(P::lane(t104, 1)) * t254;
-    let t292 = P::splat(P::lane(t112, 2)) * t254;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t293 = mul_add(P::splat(platform_rotation[2][0]), t12, t263);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t294 = mul_add(P::splat(base_rotation[1][2]), t234, t256);
+    let t184 = t166 + t180;
     // second moment of payload and platform-side leg ends
-    let t295 = P::triple([P::lane(t179, 2), P::lane(t228, 2), P::lane(t201, 2)]);
-    let t296 = P::triple([c(0.0), c(0.0), P::lane(t201, 1) + P::lane(t201, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t297 = mul_add(P::splat(platform_rotation[0][0]), t12, t270);
-    let t298 = mul_add(P::splat(platform_rotation[1][0]), t12, t271);
+    let t185 = t169 + t170 + t181;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t186 = P::splat(base_rotation[0][1]) * t162;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t187 = P::splat(base_rotation[0][1]) * t39;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t188 = neg_mul_add(t44, t160, t133);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t189 = mul_add(t56, t173, mul_add(t54, t157, t52 * t150));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t190 = mul_sub(t47, P::splat(P::lane(t128, 1)), t177);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t191 = mul_add(t71, t145, t52);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t192 = mul_add(t65, t124, t51);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t193 = P::splat(base_rotation[1][1]) * t162;
+    let t194 = P::splat(base_rotation[2][1]) * t162;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t195 = P::splat(base_rotation[1][1]) * t39;
+    let t196 = P::splat(base_rotation[2][1]) * t39;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t197 = neg_mul_add(P::splat(P::lane(t93, 2)), t130, t176);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t198 = mul_add(P::splat(P::lane(t93, 2)), t157, t178);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t199 = mul_add(P::splat(P::lane(t93, 0)), t130, t179);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t200 = t40 * P::splat(P::lane(t128, 1));
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t201 = neg_mul_add(t120, t129, t97);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t299 = w(0.5) * t272;
-    let t300 = t264 * mul_add(P::splat(base_rotation[1][2]), t56, t230);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t301 = mul_add(t267, t267, mul_add(t232, t232, t208 * t208));
+    let t202 = w(1.0) / t184;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t203 = P::splat(P::lane(t172, 1)) + t182;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t204 = mul_add(t39, t183, t21);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t205 = mul_add(P::splat(base_rotation[0][0]), t174, t186);
+    // second moment of payload and platform-side leg ends
+    let t206 = mul_add(t131, t13 * t13, t121 * (t20 * t20));
+    let t207 = P::lane(t168, 1) + P::lane(t168, 0);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t208 = mul_add(P::splat(base_rotation[0][0]), t44, t187);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t209 = mul_add(t72, t145, t54);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t210 = mul_add(P::splat(base_rotation[1][0]), t174, t193);
+    let t211 = mul_add(P::splat(base_rotation[2][0]), t174, t194);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t212 = mul_add(P::splat(base_rotation[1][0]), t44, t195);
+    let t213 = mul_add(P::splat(base_rotation[2][0]), t44, t196);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t214 = neg_mul_add(t52, t189, t150);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t215 = neg_mul_add(t51, t160, t151);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t216 = mul_add(P::splat(P::lane(t93, 1)), t173, t190);
+    let t217 = mul_sub(t36, P::splat(P::lane(t128, 0)), t200);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t218 = mul_add(t151, t192, mul_add(t133, t174, t130 * t162));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t219 = t197 + P::splat(P::lane(t172, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t220 = neg_mul_add(P::splat(P::lane(t93, 0)), t173, t198);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t221 = neg_mul_add(P::splat(P::lane(t93, 1)), t133, t199);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t222 = mul_add(t44, t183, t38);
+    let t223 = mul_add(t51, t183, t46);
+    // legs 4, 5, 6: actuator length d
+    let t224 = t64 - t89;
+    // second moment of payload and platform-side leg ends
+    let t225 = P::triple([P::lane(t185, 1), P::lane(t167, 2), P::lane(t168, 2)]);
+    let t226 = P::triple([c(0.0), P::lane(t167, 1) + P::lane(t167, 0), t207]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t227 = P::splat(P::lane(t116, 0)) * t204;
+    let t228 = P::splat(P::lane(t104, 1)) * t204;
+    let t229 = P::splat(P::lane(t112, 2)) * t204;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t230 = mul_add(P::splat(base_rotation[0][2]), t192, t205);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t231 = P::splat(base_rotation[1][1]) * t191;
+    // second moment of payload and platform-side leg ends
+    let t232 = t225 + t226;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t233 = mul_add(P::splat(base_rotation[0][2]), t51, t208);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t234 = P::splat(base_rotation[1][1]) * t52;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t235 = neg_mul_add(t54, t189, t157);
+    // rotation of the platform seen from the base
+    let t236 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t237 = mul_add(t73, t145, t56);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t238 = mul_add(P::splat(base_rotation[1][2]), t192, t210);
+    let t239 = mul_add(P::splat(base_rotation[2][2]), t192, t211);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t240 = t171 * t201;
+    let t241 = mul_add(P::splat(base_rotation[1][2]), t51, t212);
+    let t242 = mul_add(P::splat(base_rotation[2][2]), t51, t213);
+    // acceleration per platform coordinate of points of the platform
+    let t243 = mul_sub(t83, t236, t14 * t119);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t244 = neg_mul_add(P::splat(P::lane(t93, 2)), t150, t216);
+    let t245 = mul_add(P::splat(P::lane(t93, 0)), t150, t217);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t246 = mul_add(t215, t215, mul_add(t188, t188, t175 * t175));
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t247 = neg_mul_add(t110, t149, t87);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t248 = t171 * (t201 * t201);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t249 = t160 - t218;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t250 = P::splat(P::lane(t172, 1)) + t220;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t251 = P::splat(P::lane(t172, 2)) + t221;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t252 = mul_add(P::splat(P::lane(t112, 0)), t223, P::splat(P::lane(t126, 0)));
+    let t253 = t39 * P::splat(P::lane(t75, 2));
+    let t254 = mul_add(P::splat(P::lane(t116, 1)), t223, P::splat(P::lane(t126, 1)));
+    let t255 = t51 * P::splat(P::lane(t75, 0));
+    let t256 = neg_mul_add(P::splat(P::lane(t104, 2)), t223, P::splat(P::lane(t126, 2)));
+    let t257 = t44 * P::splat(P::lane(t75, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t258 = mul_add(t52, t224, t45);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t259 = P::splat(base_rotation[0][1]) * t191;
+    let t260 = mul_add(P::splat(base_rotation[1][0]), t209, t231);
+    let t261 = P::splat(base_rotation[2][1]) * t191;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t262 = P::splat(base_rotation[0][1]) * t52;
+    let t263 = mul_add(P::splat(base_rotation[1][0]), t54, t234);
+    let t264 = P::splat(base_rotation[2][1]) * t52;
+    // rotation of the platform seen from the base
+    let t265 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t266 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t267 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t268 = neg_mul_add(t233, t240, t230);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t269 = neg_mul_add(t56, t189, t173);
+    // acceleration per platform coordinate of points of the platform
+    let t270 = mul_sub(t83, t265, t15 * t119);
+    let t271 = mul_sub(t83, t266, t17 * t119);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t272 = P::splat(platform_rotation[0][1]) * t9;
+    let t273 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t274 = t233 * t248;
+    let t275 = neg_mul_add(t240, t241, t238);
+    let t276 = neg_mul_add(t240, t242, t239);
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t302 = t184 - t274;
+    let t277 = mul_add(t173, t237, mul_add(t157, t209, t150 * t191));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t278 = P::splat(P::lane(t172, 0)) + t244;
+    let t279 = neg_mul_add(P::splat(P::lane(t93, 1)), t157, t245);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t280 = mul_add(t192, t251, mul_add(t174, t219, t162 * t203));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t281 = mul_sub(t51, P::splat(P::lane(t75, 1)), t253);
+    let t282 = mul_sub(t44, P::splat(P::lane(t75, 2)), t255);
+    let t283 = mul_sub(t39, P::splat(P::lane(t75, 0)), t257);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t284 = mul_add(t54, t224, t50);
+    let t285 = mul_add(t56, t224, t55);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t286 = mul_add(P::splat(base_rotation[0][0]), t209, t259);
+    let t287 = mul_add(P::splat(base_rotation[2][0]), t209, t261);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t288 = mul_add(P::splat(base_rotation[0][0]), t54, t262);
+    let t289 = mul_add(P::splat(base_rotation[2][0]), t54, t264);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t290 = t241 * t248;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t291 = t252 - mul_sub(P::splat(P::lane(t104, 0)), t222, t227);
+    let t292 = t218 * w(2.0);
+    let t293 = mul_sub(P::splat(P::lane(t112, 1)), t222, t228) + t254;
+    let t294 = mul_add(P::splat(P::lane(t116, 2)), t222, t229) + t256;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t295 = P::splat(P::lane(t116, 0)) * t258;
+    let t296 = P::splat(P::lane(t104, 1)) * t258;
+    let t297 = P::splat(P::lane(t112, 2)) * t258;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t298 = mul_add(P::splat(platform_rotation[2][0]), t12, t267);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t299 = mul_add(P::splat(base_rotation[1][2]), t237, t260);
+    // second moment of payload and platform-side leg ends
+    let t300 = P::triple([P::lane(t185, 2), P::lane(t232, 2), P::lane(t206, 2)]);
+    let t301 = P::triple([c(0.0), c(0.0), P::lane(t206, 1) + P::lane(t206, 0)]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t302 = mul_add(P::splat(base_rotation[1][2]), t56, t263);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t303 = mul_add(P::splat(platform_rotation[0][0]), t12, t272);
+    let t304 = mul_add(P::splat(platform_rotation[1][0]), t12, t273);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t305 = t156 * t268;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t306 = t202 * t247;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t307 = mul_add(t269, t269, mul_add(t235, t235, t214 * t214));
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t308 = t202 * (t247 * t247);
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t309 = t156 * t275;
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t310 = t189 - t277;
     // angular velocity of the platform
-    let t303 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t311 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t304 = P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
+    let t312 = P::triple([P::lane(t243, 2), P::lane(t243, 0), P::lane(t243, 1)]);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t305 = P::splat(P::lane(t166, 2)) + t276;
+    let t313 = P::splat(P::lane(t172, 2)) + t279;
     // legs 1, 2, 3: actuator acceleration d''
-    let t306 = neg_mul_add(t124, mul_add(t245, t245, t242), t277);
+    let t314 = neg_mul_add(t124, mul_add(t249, t249, t246), t280);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t307 = mul_add(P::splat(P::lane(t112, 0)), t282, P::splat(P::lane(t126, 0)));
-    let t308 = t52 * P::splat(P::lane(t75, 2));
-    let t309 = mul_add(P::splat(P::lane(t116, 1)), t282, P::splat(P::lane(t126, 1)));
-    let t310 = t56 * P::splat(P::lane(t75, 0));
-    let t311 = neg_mul_add(P::splat(P::lane(t104, 2)), t282, P::splat(P::lane(t126, 2)));
-    let t312 = t54 * P::splat(P::lane(t75, 1));
+    let t315 = mul_add(P::splat(P::lane(t112, 0)), t285, P::splat(P::lane(t126, 0)));
+    let t316 = t52 * P::splat(P::lane(t75, 2));
+    let t317 = mul_add(P::splat(P::lane(t116, 1)), t285, P::splat(P::lane(t126, 1)));
+    let t318 = t56 * P::splat(P::lane(t75, 0));
+    let t319 = neg_mul_add(P::splat(P::lane(t104, 2)), t285, P::splat(P::lane(t126, 2)));
+    let t320 = t54 * P::splat(P::lane(t75, 1));
     // legs 4, 5, 6: gradient of the actuator length
-    let t313 = mul_add(P::splat(base_rotation[0][2]), t234, t283);
-    let t314 = mul_add(P::splat(base_rotation[2][2]), t234, t284);
+    let t321 = mul_add(P::splat(base_rotation[0][2]), t237, t286);
+    let t322 = mul_add(P::splat(base_rotation[2][2]), t237, t287);
     // second moment of payload and platform-side leg ends
-    let t315 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t316 = t243 * t285;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t317 = P::splat(platform_rotation[0][1]) * t18;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t318 = mul_add(P::splat(platform_rotation[2][2]), t13, t293);
+    let t323 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t319 = t264 * mul_add(P::splat(base_rotation[0][2]), t56, t258);
-    let t320 = mul_sub(t294, t299, t300);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t321 = mul_add(t226, t285, t243 * t266);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t322 = t264 * mul_add(P::splat(base_rotation[2][2]), t56, t260);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t323 = mul_add(P::splat(platform_rotation[0][2]), t13, t297);
-    let t324 = mul_add(P::splat(platform_rotation[1][2]), t13, t298);
+    let t324 = mul_add(P::splat(base_rotation[0][2]), t56, t288);
+    let t325 = mul_add(P::splat(base_rotation[2][2]), t56, t289);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t325 = P::splat(platform_rotation[1][1]) * t18;
+    let t326 = P::splat(platform_rotation[0][1]) * t18;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t327 = mul_add(P::splat(platform_rotation[2][2]), t13, t298);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t328 = neg_mul_add(t302, t306, t299);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t326 = mul_add(t235, t285, t243 * t273);
+    let t329 = mul_sub(t276, t305, t242 * t274);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t330 = mul_add(P::splat(platform_rotation[0][2]), t13, t303);
+    let t331 = mul_add(P::splat(platform_rotation[1][2]), t13, t304);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t332 = P::splat(platform_rotation[1][1]) * t18;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t333 = t302 * t308;
+    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+    let t334 = mul_sub(t276, t309, t242 * t290);
+    let t335 = mul_sub(t276, t156 * t276, t242 * (t242 * t248));
     // acceleration per platform coordinate of points of the platform
-    let t327 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
-    let t328 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
+    let t336 = P::triple([P::lane(t270, 2), P::lane(t270, 0), P::lane(t270, 1)]);
+    let t337 = P::triple([P::lane(t271, 2), P::lane(t271, 0), P::lane(t271, 1)]);
     // legs 4, 5, 6: actuator acceleration d''
-    let t329 = mul_add(t234, t305, mul_add(t203, t275, t186 * t246));
+    let t338 = mul_add(t237, t313, mul_add(t209, t278, t191 * t250));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t330 = mul_sub(t56, P::splat(P::lane(t75, 1)), t308);
-    let t331 = mul_sub(t54, P::splat(P::lane(t75, 2)), t310);
-    let t332 = mul_sub(t52, P::splat(P::lane(t75, 0)), t312);
+    let t339 = mul_sub(t56, P::splat(P::lane(t75, 1)), t316);
+    let t340 = mul_sub(t54, P::splat(P::lane(t75, 2)), t318);
+    let t341 = mul_sub(t52, P::splat(P::lane(t75, 0)), t320);
     // second moment of payload and platform-side leg ends
-    let t333 = t315 + parameters.payload_inertia[2][2];
+    let t342 = t323 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t334 =
+    let t343 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t335 =
+    let t344 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t336 = t235 * t273;
-    let t337 = w(2.0) * t316;
     // acceleration per platform coordinate of points of the platform
-    let t338 = mul_sub(t119, t239, t303 * t304);
+    let t345 = mul_sub(t119, t243, t311 * t312);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t339 = neg_mul_add(t44, t306, mul_add(t278, t287, t286));
-    let t340 = neg_mul_add(t39, t306, mul_add(t279, t287, t288));
-    let t341 = neg_mul_add(t51, t306, mul_add(t280, t287, t289));
+    let t346 = neg_mul_add(t44, t314, mul_add(t281, t292, t291));
+    let t347 = neg_mul_add(t39, t314, mul_add(t282, t292, t293));
+    let t348 = neg_mul_add(t51, t314, mul_add(t283, t292, t294));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t342 = t307 - mul_sub(P::splat(P::lane(t104, 0)), t281, t290);
-    let t343 = t274 * w(2.0);
-    let t344 = mul_sub(P::splat(P::lane(t112, 1)), t281, t291) + t309;
-    let t345 = mul_add(P::splat(P::lane(t116, 2)), t281, t292) + t311;
+    let t349 = t315 - mul_sub(P::splat(P::lane(t104, 0)), t284, t295);
+    let t350 = t277 * w(2.0);
+    let t351 = mul_sub(P::splat(P::lane(t112, 1)), t284, t296) + t317;
+    let t352 = mul_add(P::splat(P::lane(t116, 2)), t284, t297) + t319;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t346 = mul_add(P::splat(platform_rotation[0][0]), t19, t317);
-    let t347 = P::splat(platform_rotation[2][1]) * t18;
+    let t353 = mul_add(P::splat(platform_rotation[0][0]), t19, t326);
+    let t354 = P::splat(platform_rotation[2][1]) * t18;
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t348 = mul_sub(t299, t313, t319);
-    let t349 = mul_sub(t299, t314, t322);
+    let t355 = neg_mul_add(t306, t324, t321);
+    let t356 = neg_mul_add(t306, t325, t322);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t350 = mul_add(P::splat(platform_rotation[1][0]), t19, t325);
+    let t357 = mul_add(P::splat(platform_rotation[1][0]), t19, t332);
     // second moment of payload and platform-side leg ends
-    let t351 = P::triple([P::lane(t179, 0), P::lane(t228, 1), P::lane(t295 + t296, 2)]);
-    // first moment of payload and platform-side leg ends
-    let t352 = mul_add(t12, t130, t19 * t121);
-    let t353 = mul_add(t9, t130, t18 * t121);
-    let t354 = mul_add(t13, t130, t20 * t121);
-    // second moment of payload and platform-side leg ends
-    let t355 = P::triple([P::lane(t179, 1), P::lane(t228, 2), P::lane(t179, 2)]);
+    let t358 = P::triple([P::lane(t185, 0), P::lane(t232, 1), P::lane(t300 + t301, 2)]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t359 = t308 * t324;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t356 = w(2.0) * t336;
+    let t360 = mul_sub(t275, t309, t241 * t290);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t361 = t184 * t328;
+    // first moment of payload and platform-side leg ends
+    let t362 = mul_add(t12, t131, t19 * t121);
+    let t363 = mul_add(t9, t131, t18 * t121);
+    let t364 = mul_add(t13, t131, t20 * t121);
+    // second moment of payload and platform-side leg ends
+    let t365 = P::triple([P::lane(t185, 1), P::lane(t232, 2), P::lane(t185, 2)]);
     // mass matrix of the legs
-    let t357 = t323 * t326;
+    let t366 = t330 * t334;
     // acceleration per platform coordinate of points of the platform
-    let t358 = mul_sub(t119, t268, t303 * t327);
-    let t359 = mul_sub(t119, t269, t303 * t328);
+    let t367 = mul_sub(t119, t270, t311 * t336);
+    let t368 = mul_sub(t119, t271, t311 * t337);
     // legs 4, 5, 6: actuator acceleration d''
-    let t360 = neg_mul_add(t144, mul_add(t302, t302, t301), t329);
+    let t369 = neg_mul_add(t145, mul_add(t310, t310, t307), t338);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t361 = mul_add(P::splat(platform_rotation[2][0]), t19, t347);
+    let t370 = mul_add(P::splat(platform_rotation[2][0]), t19, t354);
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t362 = mul_add(t226, t273, t235 * t266);
+    let t371 = mul_sub(t275, t305, t241 * t274);
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t363 = t205 * t339;
-    let t364 = t205 * t340;
-    let t365 = t205 * t341;
+    let t372 = t201 * t346;
+    let t373 = t201 * t347;
+    let t374 = t201 * t348;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t366 = mul_add(P::splat(platform_rotation[0][2]), t20, t346);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t367 = t226 * t266;
+    let t375 = mul_add(P::splat(platform_rotation[0][2]), t20, t353);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t368 = mul_add(t294, t349, t314 * t320);
+    let t376 = t184 * t355;
+    let t377 = mul_sub(t356, t361, t325 * t333);
     // mass matrix of the legs
-    let t369 = mul_sub(t323, t337, t318 * t321);
+    let t378 = mul_sub(t330, t335, t327 * t329);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t370 = mul_add(P::splat(platform_rotation[1][2]), t20, t350);
+    let t379 = mul_add(P::splat(platform_rotation[1][2]), t20, t357);
     // constant and copied elements
-    let t371 =
+    let t380 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t372 =
+    let t381 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t382 = mul_sub(t328, t361, t302 * t333);
     // mass matrix of the legs
-    let t373 = mul_sub(t321, t324, t357);
-    let t374 = mul_sub(t318, t326, t324 * t337);
+    let t383 = mul_sub(t329, t331, t366);
+    let t384 = mul_sub(t327, t334, t331 * t335);
     // second moment of payload and platform-side leg ends
-    let t375 = mul_add(w(0.5), P::splat(t333), t351) - t372;
+    let t385 = mul_add(P::splat(t342), w(0.5), t358) - t381;
     // constant and copied elements
-    let t376 =
+    let t386 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t377 = w(2.0) * (t294 * t320);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t378 = neg_mul_add(t54, t360, mul_add(t330, t343, t342));
-    let t379 = neg_mul_add(t52, t360, mul_add(t331, t343, t344));
-    let t380 = neg_mul_add(t56, t360, mul_add(t332, t343, t345));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t381 = mul_add(P::splat(platform_rotation[2][2]), t20, t361);
-    // second moment of payload and platform-side leg ends
-    let t382 = mul_add(t334 * t335, P::splat(parameters.payload_mass), t355) - t376;
     // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t383 = w(2.0) * t367;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t384 = mul_add(t313, t320, t294 * t348);
-    // mass matrix of the legs
-    let t385 = mul_sub(t318, t362, t357);
+    let t387 = mul_sub(t268, t305, t233 * t274);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t386 = t18 * P::splat(P::lane(t338, 1));
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t387 = mul_add(t313, t349, t314 * t348);
-    // mass matrix of the legs
-    let t388 = t366 * t368;
-    let t389 = mul_sub(t318, t356, t324 * t326);
-    let t390 = mul_sub(t324, t362, t323 * t356);
+    let t388 = neg_mul_add(t54, t369, mul_add(t339, t350, t349));
+    let t389 = neg_mul_add(t52, t369, mul_add(t340, t350, t351));
+    let t390 = neg_mul_add(t56, t369, mul_add(t341, t350, t352));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t391 = mul_add(P::splat(platform_rotation[2][2]), t20, t370);
     // second moment of payload and platform-side leg ends
-    let t391 = mul_add(P::splat(parameters.payload_mass), t371 * t371, t375);
+    let t392 = mul_add(t343 * t344, P::splat(parameters.payload_mass), t365) - t386;
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t393 = mul_sub(t328, t376, t302 * t359);
+    // mass matrix of the legs
+    let t394 = mul_sub(t327, t371, t366);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t395 = t18 * P::splat(P::lane(t345, 1));
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t396 = mul_sub(t356, t376, t325 * t359);
+    // mass matrix of the legs
+    let t397 = t375 * t377;
+    let t398 = mul_sub(t327, t360, t331 * t334);
+    let t399 = mul_sub(t331, t371, t330 * t360);
+    // second moment of payload and platform-side leg ends
+    let t400 = mul_add(P::splat(parameters.payload_mass), t380 * t380, t385);
+    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t401 = mul_sub(t356, t184 * t356, t325 * (t308 * t325));
     // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t392 = mul_sub(t33, t365, t37 * t364);
-    let t393 = mul_sub(t37, t363, t32 * t365);
-    let t394 = mul_sub(t32, t364, t33 * t363);
+    let t402 = mul_sub(t33, t374, t37 * t373);
+    let t403 = mul_sub(t37, t372, t32 * t374);
+    let t404 = mul_sub(t32, t373, t33 * t372);
     // first moment of payload and platform-side leg ends
-    let t395 = P::triple([P::lane(t352, 0), P::lane(t353, 0), P::lane(t354, 0)]);
-    let t396 = P::triple([P::lane(t352, 1), P::lane(t353, 1), P::lane(t354, 1)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t397 = w(2.0) * (t314 * t349);
+    let t405 = P::triple([P::lane(t362, 0), P::lane(t363, 0), P::lane(t364, 0)]);
+    let t406 = P::triple([P::lane(t362, 1), P::lane(t363, 1), P::lane(t364, 1)]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t398 = t9 * P::splat(P::lane(t338, 1));
+    let t407 = t9 * P::splat(P::lane(t345, 1));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t399 = t18 * P::splat(P::lane(t338, 0));
-    let t400 = neg_mul_add(t20, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
+    let t408 = t18 * P::splat(P::lane(t345, 0));
+    let t409 = neg_mul_add(t20, P::splat(P::lane(t368, 1)), P::splat(P::lane(t127, 1)));
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t401 = t264 * t378;
-    let t402 = t264 * t379;
-    let t403 = t264 * t380;
+    let t410 = t247 * t388;
+    let t411 = t247 * t389;
+    let t412 = t247 * t390;
     // mass matrix of the legs
-    let t404 = mul_sub(t381, t384, t388);
-    let t405 = mul_sub(t377, t381, t368 * t370);
-    let t406 = mul_sub(t370, t384, t366 * t377);
+    let t413 = mul_sub(t391, t393, t397);
+    let t414 = mul_sub(t382, t391, t377 * t379);
+    let t415 = mul_sub(t379, t393, t375 * t382);
     // first moments by platform coordinate of the payload's inertia force
-    let t407 = t338 * P::splat(P::lane(t382, 0));
+    let t416 = t345 * P::splat(P::lane(t392, 0));
     // first moment of payload and platform-side leg ends
-    let t408 = P::triple([P::lane(t352, 2), P::lane(t353, 2), P::lane(t354, 2)]);
+    let t417 = P::triple([P::lane(t362, 2), P::lane(t363, 2), P::lane(t364, 2)]);
     // mass matrix of the legs
-    let t409 = mul_sub(t321, t323, t318 * t383);
-    let t410 = mul_sub(t324, t383, t323 * t362);
+    let t418 = mul_sub(t329, t330, t327 * t387);
+    let t419 = mul_sub(t331, t387, t330 * t371);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t411 = t9 * P::splat(P::lane(t338, 0));
-    let t412 = neg_mul_add(t13, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
+    let t420 = t9 * P::splat(P::lane(t345, 0));
+    let t421 = neg_mul_add(t13, P::splat(P::lane(t368, 1)), P::splat(P::lane(t127, 1)));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t413 = neg_mul_add(t20, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
-    let t414 = t18 * P::splat(P::lane(t338, 2));
+    let t422 = neg_mul_add(t20, P::splat(P::lane(t368, 0)), P::splat(P::lane(t127, 0)));
+    let t423 = t18 * P::splat(P::lane(t345, 2));
     // mass matrix of the legs
-    let t415 = mul_add(t381, t404, mul_add(t318, t385, t324 * t369));
-    let t416 = mul_sub(t366, t397, t381 * t387);
+    let t424 = mul_add(t391, t413, mul_add(t327, t394, t331 * t378));
+    let t425 = mul_sub(t375, t401, t391 * t396);
     // first moments by platform coordinate of the payload's inertia force
-    let t417 = mul_add(t358, P::splat(P::lane(t391, 0)), t407);
+    let t426 = mul_add(t367, P::splat(P::lane(t400, 0)), t416);
     // mass matrix of the legs
-    let t418 = mul_sub(t370, t387, t388);
-    let t419 = mul_add(t381, t405, mul_sub(t318, t389, t324 * t374));
-    let t420 = mul_sub(t368, t381, t370 * t397);
-    let t421 = mul_add(t381, t406, mul_sub(t318, t390, t324 * t373));
+    let t427 = mul_sub(t379, t396, t397);
+    let t428 = mul_add(t391, t414, mul_sub(t327, t398, t331 * t384));
+    let t429 = mul_sub(t377, t391, t379 * t401);
+    let t430 = mul_add(t391, t415, mul_sub(t327, t399, t331 * t383));
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t422 = neg_mul_add(t13, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
+    let t431 = neg_mul_add(t13, P::splat(P::lane(t368, 0)), P::splat(P::lane(t127, 0)));
     // first moment of payload and platform-side leg ends
-    let t423 = mul_add(P::splat(parameters.payload_mass), t371, t395 + t396 + t408);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t424 = t9 * P::splat(P::lane(t338, 2));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t425 = t413 - mul_add(t19, P::splat(P::lane(t358, 0)), t399);
-    let t426 = t52 * (t400 - mul_add(t19, P::splat(P::lane(t358, 1)), t386));
-    let t427 = neg_mul_add(t20, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t428 = neg_mul_add(t47, t402, mul_add(t36, t403, t392));
-    let t429 = neg_mul_add(t40, t403, mul_add(t47, t401, t393));
-    let t430 = neg_mul_add(t36, t401, mul_add(t40, t402, t394));
+    let t432 = mul_add(P::splat(parameters.payload_mass), t380, t405 + t406 + t417);
     // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t431 = w(2.0) * (t313 * t348);
-    // mass matrix of the legs
-    let t432 = mul_add(t370, t416, t415);
-    // first moments by platform coordinate of the payload's inertia force
-    let t433 = mul_add(t359, P::splat(P::lane(t382, 2)), t417);
-    // mass matrix of the legs
-    let t434 = neg_mul_add(t370, t420, t419);
-    let t435 = neg_mul_add(t370, t418, t421);
+    let t433 = mul_sub(t355, t376, t324 * t359);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t436 = t422 - mul_add(t12, P::splat(P::lane(t358, 0)), t411);
-    let t437 = t39 * (t412 - mul_add(t12, P::splat(P::lane(t358, 1)), t398));
-    let t438 = neg_mul_add(t13, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
+    let t434 = t9 * P::splat(P::lane(t345, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t435 = t422 - mul_add(t19, P::splat(P::lane(t367, 0)), t408);
+    let t436 = t52 * (t409 - mul_add(t19, P::splat(P::lane(t367, 1)), t395));
+    let t437 = neg_mul_add(t20, P::splat(P::lane(t368, 2)), P::splat(P::lane(t127, 2)));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t438 = neg_mul_add(t47, t411, mul_add(t36, t412, t402));
+    let t439 = neg_mul_add(t40, t412, mul_add(t47, t410, t403));
+    let t440 = neg_mul_add(t36, t410, mul_add(t40, t411, t404));
+    // mass matrix of the legs
+    let t441 = mul_add(t379, t425, t424);
+    // first moments by platform coordinate of the payload's inertia force
+    let t442 = mul_add(t368, P::splat(P::lane(t392, 2)), t426);
+    // mass matrix of the legs
+    let t443 = neg_mul_add(t379, t429, t428);
+    let t444 = neg_mul_add(t379, t427, t430);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t445 = t431 - mul_add(t12, P::splat(P::lane(t367, 0)), t420);
+    let t446 = t39 * (t421 - mul_add(t12, P::splat(P::lane(t367, 1)), t407));
+    let t447 = neg_mul_add(t13, P::splat(P::lane(t368, 2)), P::splat(P::lane(t127, 2)));
     // constant and copied elements
-    let t439 =
+    let t448 =
         P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t440 =
+    let t449 =
         P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t441 = t338 * P::splat(P::lane(t391, 1));
+    let t450 = t345 * P::splat(P::lane(t400, 1));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t442 = t427 - mul_add(t19, P::splat(P::lane(t358, 2)), t414);
+    let t451 = t437 - mul_add(t19, P::splat(P::lane(t367, 2)), t423);
     // mass matrix of the legs
-    let t443 = mul_add(w(2.0), t367, t431);
-    let t444 = t362 + t384;
-    let t445 = t321 + t387;
+    let t452 = t387 + t433;
+    let t453 = t371 + t393;
+    let t454 = t329 + t396;
     // constant and copied elements
-    let t446 =
+    let t455 =
         P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t447 =
+    let t456 =
         P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t448 =
+    let t457 =
         P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t449 = mul_sub(t127, P::splat(P::lane(t423, 0)), t433);
-    let t450 = mul_add(t358, P::splat(P::lane(t382, 0)), t441);
+    let t458 = mul_sub(t127, P::splat(P::lane(t432, 0)), t442);
+    let t459 = mul_add(t367, P::splat(P::lane(t392, 0)), t450);
     // mass matrix of the legs
-    let t451 = mul_add(t366, t416, mul_sub(t323, t369, t318 * t409));
-    let t452 = mul_sub(t366, t387, t381 * t431);
-    let t453 = mul_add(t366, t418, mul_sub(t323, t373, t318 * t410));
-    let t454 = mul_sub(t370, t431, t366 * t384);
+    let t460 = mul_add(t391, t393, mul_sub(t327, t371, t329 * t331));
+    let t461 = mul_add(t375, t425, mul_sub(t330, t378, t327 * t418));
+    let t462 = mul_sub(t375, t396, t391 * t433);
+    let t463 = mul_add(t375, t427, mul_sub(t330, t383, t327 * t419));
+    let t464 = mul_sub(t379, t433, t375 * t393);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t455 = t438 - mul_add(t12, P::splat(P::lane(t358, 2)), t424);
+    let t465 = t447 - mul_add(t12, P::splat(P::lane(t367, 2)), t434);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t456 = mul_add(t56, t442, mul_add(t54, t425, t426));
+    let t466 = mul_add(t56, t451, mul_add(t54, t435, t436));
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t457 = mul_add(t220 - t439, t448, t274 * t440);
+    let t467 = mul_add(t224 - t448, t457, t277 * t449);
     // mass of payload and platform-side leg ends
-    let t458 = t121 + t130;
+    let t468 = t121 + t131;
     // moment of the legs' inertia at their joints about the platform origin
-    let t459 = P::triple([P::lane(t428, 0), P::lane(t429, 0), P::lane(t430, 0)]);
-    let t460 = P::triple([P::lane(t428, 1), P::lane(t429, 1), P::lane(t430, 1)]);
+    let t469 = P::triple([P::lane(t438, 0), P::lane(t439, 0), P::lane(t440, 0)]);
+    let t470 = P::triple([P::lane(t438, 1), P::lane(t439, 1), P::lane(t440, 1)]);
+    // mass matrix of the legs
+    let t471 = t394 + t413;
+    // mass matrix M_p of the platform
+    let t472 = t398 + t414;
+    let t473 = t399 + t415;
     // constant and copied elements
-    let t461 =
+    let t474 =
         P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
     // inertia force less weight, without the actuators' own shares
-    let t462 = mul_add(t205, t339, t401);
-    let t463 = mul_add(t205, t340, t402);
-    let t464 = mul_add(t205, t341, t403);
+    let t475 = mul_add(t201, t346, t410);
+    let t476 = mul_add(t201, t347, t411);
+    let t477 = mul_add(t201, t348, t412);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t465 = mul_add(t51, t455, mul_add(t44, t436, t437));
+    let t478 = mul_add(t51, t465, mul_add(t44, t445, t446));
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t466 = mul_add(t178 - t446, t461, t214 * t447);
+    let t479 = mul_add(t183 - t455, t474, t218 * t456);
     // first moments by platform coordinate of the payload's inertia force
-    let t467 = mul_add(t359, P::splat(P::lane(t382, 1)), t450);
+    let t480 = mul_add(t368, P::splat(P::lane(t392, 1)), t459);
     // mass matrix of the legs
-    let t468 = neg_mul_add(t381, t452, t451);
-    let t469 = neg_mul_add(t381, t454, t453);
-    let t470 = P::triple([P::lane(t434, 0), -P::lane(t432, 0), P::lane(t435, 0)]);
-    let t471 = P::triple([P::lane(t434, 1), -P::lane(t432, 1), P::lane(t435, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t472 = mul_add(t56, t380, mul_add(t54, t378, t52 * t379));
-    let t473 = mul_add(t332, t332, mul_add(t330, t330, t331 * t331));
-    // first moments by platform coordinate of the payload's inertia force
-    let t474 = t338 * P::splat(P::lane(t382, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t475 = P::triple([P::lane(t428, 2), P::lane(t429, 2), P::lane(t430, 2)]);
-    let t476 = t459 + t460 + t475;
-    // mass matrix of the legs
-    let t477 = mul_add(w(2.0), t336, t377);
-    let t478 = P::triple([P::lane(t443, 0), P::lane(t444, 0), P::lane(t445, 0)]);
-    let t479 = P::triple([P::lane(t443, 1), P::lane(t444, 1), P::lane(t445, 1)]);
+    let t481 = neg_mul_add(t379, t396, t460);
+    let t482 = neg_mul_add(t391, t462, t461);
+    let t483 = neg_mul_add(t391, t464, t463);
+    let t484 = P::triple([P::lane(t443, 0), -P::lane(t441, 0), P::lane(t444, 0)]);
+    let t485 = P::triple([P::lane(t443, 1), -P::lane(t441, 1), P::lane(t444, 1)]);
     // mass matrix M_p of the platform
-    let t480 = t389 + t405;
+    let t486 = t418 + t462;
+    let t487 = t419 + t464;
+    let t488 = t384 + t429;
+    let t489 = t378 + t425;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t490 = mul_add(t56, t390, mul_add(t54, t388, t52 * t389));
+    let t491 = mul_add(t341, t341, mul_add(t339, t339, t340 * t340));
+    // first moments by platform coordinate of the payload's inertia force
+    let t492 = t345 * P::splat(P::lane(t392, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t493 = P::triple([P::lane(t438, 2), P::lane(t439, 2), P::lane(t440, 2)]);
+    // mass matrix of the legs
+    let t494 = t383 + t427;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t495 = t469 + t470 + t493;
+    // mass matrix of the legs
+    let t496 = P::triple([P::lane(t452, 0), P::lane(t453, 0), P::lane(t454, 0)]);
+    let t497 = P::triple([P::lane(t452, 1), P::lane(t453, 1), P::lane(t454, 1)]);
     // constant and copied elements
-    let t481 =
+    let t498 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t482 = mul_add(t381, t384, mul_sub(t318, t362, t321 * t324));
-    let t483 = t326 + t368;
-    let t484 = P::triple([P::lane(t434, 2), -P::lane(t432, 2), P::lane(t435, 2)]);
-    // mass matrix M_p of the platform
-    let t485 = t390 + t406;
+    let t499 = t360 + t382;
+    let t500 = t334 + t377;
+    let t501 = P::triple([P::lane(t443, 2), -P::lane(t441, 2), P::lane(t444, 2)]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t486 = mul_add(t51, t341, mul_add(t44, t339, t39 * t340));
-    let t487 = mul_add(t280, t280, mul_add(t278, t278, t279 * t279));
+    let t502 = mul_add(t51, t348, mul_add(t44, t346, t39 * t347));
+    let t503 = mul_add(t283, t283, mul_add(t281, t281, t282 * t282));
     // constant and copied elements
-    let t488 =
+    let t504 =
         P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
     // first moments by platform coordinate of the payload's inertia force
-    let t489 = mul_sub(t127, P::splat(P::lane(t423, 1)), t467);
-    let t490 = mul_add(t358, P::splat(P::lane(t382, 2)), t474);
-    let t491 = P::triple([P::lane(t449, 2), P::lane(t449, 0), P::lane(t449, 1)]);
+    let t505 = mul_sub(t127, P::splat(P::lane(t432, 1)), t480);
+    let t506 = mul_add(t367, P::splat(P::lane(t392, 2)), t492);
+    let t507 = P::triple([P::lane(t458, 2), P::lane(t458, 0), P::lane(t458, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t492 = P::splat(parameters.payload_com[1]) * t481;
+    let t508 = P::splat(parameters.payload_com[1]) * t498;
     // mass matrix of the legs
-    let t493 = mul_add(t370, t454, mul_sub(t324, t410, t323 * t390));
-    let t494 = t470 + t471 + t484;
+    let t509 = mul_add(t379, t464, mul_sub(t331, t419, t330 * t399));
+    let t510 = t484 + t485 + t501;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t495 = mul_add(t473, t488, t472);
+    let t511 = mul_add(t491, t504, t490);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t496 = mul_add(t236, t472, mul_add(t264, t456, t457));
+    let t512 = mul_add(t166, t490, mul_add(t247, t466, t467));
     // mass matrix M_p of the platform
-    let t497 = platform_rotation[2][1] * P::lane(t423, 1);
+    let t513 = platform_rotation[2][1] * P::lane(t432, 1);
     // mass matrix of the legs
-    let t498 = P::triple([P::lane(t443, 2), P::lane(t444, 2), P::lane(t445, 2)]);
+    let t514 = P::triple([P::lane(t452, 2), P::lane(t453, 2), P::lane(t454, 2)]);
     // mass matrix M_p of the platform
-    let t499 = t410 + t454;
-    let t500 = t369 + t416;
-    let t501 = platform_rotation[0][1] * P::lane(t423, 1);
+    let t515 = P::triple([P::lane(t472, 0), P::lane(t471, 0), P::lane(t473, 0)]);
+    let t516 = P::triple([P::lane(t472, 1), P::lane(t471, 1), P::lane(t473, 1)]);
+    let t517 = platform_rotation[0][1] * P::lane(t432, 1);
     // constant and copied elements
-    let t502 =
+    let t518 =
         P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
     // mass matrix of the legs
-    let t503 = t385 + t404;
-    let t504 = t478 + t479 + t498;
-    // mass matrix M_p of the platform
-    let t505 = t409 + t452;
-    let t506 = t374 + t420;
+    let t519 = t496 + t497 + t514;
     // constant and copied elements
-    let t507 =
+    let t520 =
         P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
     // inertia force less weight, without the actuators' own shares
-    let t508 = P::triple([P::lane(t462, 0), P::lane(t463, 0), P::lane(t464, 0)]);
-    let t509 = P::triple([P::lane(t462, 1), P::lane(t463, 1), P::lane(t464, 1)]);
+    let t521 = P::triple([P::lane(t475, 0), P::lane(t476, 0), P::lane(t477, 0)]);
+    let t522 = P::triple([P::lane(t475, 1), P::lane(t476, 1), P::lane(t477, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t510 = mul_add(P::splat(parameters.payload_com[0]), t502, t492);
-    // mass matrix of the legs
-    let t511 = neg_mul_add(t370, t387, t482);
+    let t523 = mul_add(P::splat(parameters.payload_com[0]), t518, t508);
+    // mass matrix M_p of the platform
+    let t524 = -P::lane(t486, 0);
+    let t525 = -P::lane(t487, 0);
+    let t526 = -P::lane(t486, 1);
+    let t527 = -P::lane(t487, 1);
     // mass of payload and platform-side leg ends
-    let t512 = P::lane(t458, 2) + (P::lane(t458, 1) + P::lane(t458, 0));
+    let t528 = P::lane(t468, 2) + (P::lane(t468, 1) + P::lane(t468, 0));
     // mass matrix M_p of the platform
-    let t513 = platform_rotation[0][1] * P::lane(t382, 0);
+    let t529 = platform_rotation[0][1] * P::lane(t392, 0);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t514 = mul_add(t487, t507, t486);
+    let t530 = mul_add(t503, t520, t502);
     // first moments by platform coordinate of the payload's inertia force
-    let t515 = mul_add(t359, P::splat(P::lane(t391, 2)), t490);
+    let t531 = mul_add(t368, P::splat(P::lane(t400, 2)), t506);
     // rotation of the platform seen from the base
-    let t516 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t532 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t517 = P::triple([P::lane(t449, 1), P::lane(t449, 2), P::lane(t449, 0)]);
+    let t533 = P::triple([P::lane(t458, 1), P::lane(t458, 2), P::lane(t458, 0)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t518 = mul_add(t189, t486, mul_add(t205, t465, t466));
+    let t534 = mul_add(t146, t502, mul_add(t201, t478, t479));
     // mass matrix M_p of the platform
-    let t519 = P::mul_add(platform_rotation[2][0], P::lane(t423, 0), t497);
-    let t520 = platform_rotation[1][1] * P::lane(t423, 1);
+    let t535 = P::mul_add(platform_rotation[2][0], P::lane(t432, 0), t513);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t521 = mul_sub(t314, t370, t294 * t381);
-    let t522 = mul_sub(t313, t381, t314 * t366);
-    let t523 = mul_sub(t294, t366, t313 * t370);
+    let t536 = mul_sub(t322, t379, t299 * t391);
+    let t537 = mul_sub(t321, t391, t322 * t375);
+    let t538 = mul_sub(t299, t375, t321 * t379);
     // mass matrix of the legs
-    let t524 = t373 + t418;
-    let t525 = neg_mul_add(t366, t406, t493);
-    let t526 = P::lane(t469, 1) + P::lane(t469, 0);
-    // moment of the inertia force about the platform origin
-    let t527 = neg_mul_add(t516, t517, mul_add(t261, t491, t476));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t528 = mul_add(t265, t495, t496);
+    let t539 = neg_mul_add(t375, t415, t509);
+    let t540 = P::lane(t483, 1) + P::lane(t483, 0);
+    let t541 = P::triple([P::lane(t481, 1), t526, t527]);
     // mass matrix M_p of the platform
-    let t529 = P::mul_add(platform_rotation[0][0], P::lane(t423, 0), t501);
+    let t542 = P::triple([P::lane(t472, 2), P::lane(t471, 2), P::lane(t473, 2)]);
+    let t543 = P::triple([-P::lane(t488, 0), -P::lane(t489, 0), P::lane(t494, 0)]);
+    let t544 = P::triple([-P::lane(t488, 1), -P::lane(t489, 1), P::lane(t494, 1)]);
+    // moment of the inertia force about the platform origin
+    let t545 = neg_mul_add(t532, t533, mul_add(t265, t507, t495));
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t546 = mul_add(t180, t511, t512);
+    // mass matrix M_p of the platform
+    let t547 = platform_rotation[1][1] * P::lane(t432, 1);
+    let t548 = P::mul_add(platform_rotation[0][0], P::lane(t432, 0), t517);
+    // mass matrix of the legs
+    let t549 = P::triple([P::lane(t481, 0), t524, t525]) + t541;
+    // mass matrix M_p of the platform
+    let t550 = t515 + t516 + t542;
     // inertia force less weight, without the actuators' own shares
-    let t530 = P::triple([P::lane(t462, 2), P::lane(t463, 2), P::lane(t464, 2)]);
+    let t551 = P::triple([P::lane(t475, 2), P::lane(t476, 2), P::lane(t477, 2)]);
     // constant and copied elements
-    let t531 =
+    let t552 =
         P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // mass matrix of the legs
-    let t532 = mul_add(w(2.0), t316, t397);
-    let t533 = P::lane(t483, 1) + P::lane(t483, 0);
+    let t553 = P::lane(t500, 1) + P::lane(t500, 0);
+    // mass matrix M_p of the platform
+    let t554 = -P::lane(t486, 2);
+    let t555 = -P::lane(t487, 2);
     // mass of payload and platform-side leg ends
-    let t534 = parameters.payload_mass + t512;
+    let t556 = parameters.payload_mass + t528;
     // mass matrix M_p of the platform
-    let t535 = P::mul_add(platform_rotation[0][0], P::lane(t391, 0), t513);
+    let t557 = P::mul_add(platform_rotation[0][0], P::lane(t400, 0), t529);
     // constant and copied elements
-    let t536 =
+    let t558 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // mass matrix M_p of the platform
-    let t537 = P::mul_add(platform_rotation[1][0], P::lane(t423, 0), t520);
     // inertia less external wrench that the actuators must balance
-    let t538 = mul_add(P::splat(parameters.payload_com[2]), t531, t510);
+    let t559 = mul_add(P::splat(parameters.payload_com[2]), t552, t523);
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t539 = mul_sub(t243, t324, t235 * t318);
-    let t540 = mul_sub(t226, t318, t243 * t323);
-    let t541 = mul_sub(t235, t323, t226 * t324);
+    let t560 = mul_sub(t239, t331, t238 * t327);
+    let t561 = mul_sub(t230, t327, t239 * t330);
+    let t562 = mul_sub(t238, t330, t230 * t331);
     // mass matrix of the legs
-    let t542 = P::triple([P::lane(t494, 1), P::lane(t468, 2), P::lane(t469, 2)]);
-    let t543 = P::triple([c(0.0), P::lane(t468, 1) + P::lane(t468, 0), t526]);
+    let t563 = t335 + t401;
+    let t564 = P::triple([P::lane(t510, 1), P::lane(t482, 2), P::lane(t483, 2)]);
+    let t565 = P::triple([c(0.0), P::lane(t482, 1) + P::lane(t482, 0), t540]);
     // mass matrix M_p of the platform
-    let t544 = P::lane(t391, 2) + (P::lane(t391, 0) + P::lane(t391, 1));
-    let t545 = platform_rotation[0][1] * P::lane(t391, 1);
-    let t546 = P::splat(P::lane(t382, 0)) * t536;
+    let t566 = P::triple([-P::lane(t488, 2), -P::lane(t489, 2), P::lane(t494, 2)]);
+    let t567 = P::lane(t400, 2) + (P::lane(t400, 0) + P::lane(t400, 1));
+    let t568 = platform_rotation[0][1] * P::lane(t400, 1);
+    let t569 = P::splat(P::lane(t392, 0)) * t558;
     // first moments by platform coordinate of the payload's inertia force
-    let t547 = mul_sub(t127, P::splat(P::lane(t423, 2)), t515);
-    let t548 = P::triple([P::lane(t489, 2), P::lane(t489, 0), P::lane(t489, 1)]);
+    let t570 = mul_sub(t127, P::splat(P::lane(t432, 2)), t531);
+    let t571 = P::triple([P::lane(t505, 2), P::lane(t505, 0), P::lane(t505, 1)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t549 = mul_add(t206, t514, t518);
+    let t572 = mul_add(t155, t530, t534);
     // mass matrix M_p of the platform
-    let t550 = P::mul_add(platform_rotation[2][2], P::lane(t423, 2), t519);
+    let t573 = P::mul_add(platform_rotation[2][2], P::lane(t432, 2), t535);
+    let t574 = P::mul_add(platform_rotation[1][0], P::lane(t432, 0), t547);
     // mass matrix of the legs
-    let t551 = t542 + t543;
+    let t575 = t564 + t565;
+    let t576 = t549 + P::triple([P::lane(t481, 2), t554, t555]);
     // mass matrix M_p of the platform
-    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t423, 2), t529);
+    let t577 = t543 + t544 + t566;
+    let t578 = P::mul_add(platform_rotation[0][2], P::lane(t432, 2), t548);
     // mass matrix of the legs
-    let t553 = P::triple([P::lane(t504, 1), P::lane(t477, 2), P::lane(t483, 2)]);
-    let t554 = P::triple([c(0.0), P::lane(t477, 1) + P::lane(t477, 0), t533]);
-    // constant and copied elements
-    let t555 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t556 = mul_add(t127, P::splat(t534), t508 + t509 + t530);
-    // mass matrix of the legs
-    let t557 = t553 + t554;
-    // mass matrix M_p of the platform
-    let t558 = P::mul_add(platform_rotation[0][2], P::lane(t382, 2), t535);
-    // constant and copied elements
-    let t559 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // mass matrix M_p of the platform
-    let t560 = P::mul_add(platform_rotation[0][0], P::lane(t382, 0), t545);
-    let t561 = mul_add(P::splat(P::lane(t391, 0)), t555, t546);
-    let t562 = P::mul_add(platform_rotation[1][2], P::lane(t423, 2), t537);
-    // constant and copied elements
-    let t563 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t564 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t565 = t494 + P::triple([t544, c(0.0), c(0.0)]);
-    let t566 = platform_rotation[0][1] * P::lane(t382, 1);
-    let t567 = P::splat(P::lane(t391, 1)) * t536;
-    let t568 = P::splat(P::lane(t382, 0)) * t559;
-    // rotation of the platform seen from the base
-    let t569 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t570 = P::triple([P::lane(t489, 1), P::lane(t489, 2), P::lane(t489, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t571 = mul_add(t539, t549, t521 * t528);
-    let t572 = mul_add(t540, t549, t522 * t528);
-    let t573 = mul_add(t541, t549, t523 * t528);
-    // moment of the inertia force about the platform origin
-    let t574 = neg_mul_add(t569, t570, mul_add(t233, t548, t527));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t575 = mul_add(t226, t549, t313 * t528);
-    let t576 = mul_add(t235, t549, t294 * t528);
-    let t577 = mul_add(t243, t549, t314 * t528);
-    // mass matrix of the legs
-    let t578 = P::lane(t503, 2) + (P::lane(t503, 1) + P::lane(t503, 0));
-    mass_matrix_p[1][4] = t578;
-    mass_matrix_p[4][1] = t578;
-    // mass matrix M_p of the platform
-    let t579 = t552 - (P::lane(t485, 2) + (P::lane(t485, 1) + P::lane(t485, 0)));
-    mass_matrix_p[1][5] = t579;
-    mass_matrix_p[5][1] = t579;
-    let t580 = P::triple([c(0.0), t534, c(0.0)]);
+    let t579 = P::triple([P::lane(t519, 1), P::lane(t499, 2), P::lane(t500, 2)]);
+    let t580 = P::triple([c(0.0), P::lane(t499, 1) + P::lane(t499, 0), t553]);
     // constant and copied elements
     let t581 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    // inertia force less weight, without the actuators' own shares
+    let t582 = mul_add(t127, P::splat(t556), t521 + t522 + t551);
+    // mass matrix of the legs
+    let t583 = t579 + t580;
+    // mass matrix M_p of the platform
+    let t584 = P::mul_add(platform_rotation[0][2], P::lane(t392, 2), t557);
+    // constant and copied elements
+    let t585 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t586 = P::mul_add(platform_rotation[0][0], P::lane(t392, 0), t568);
+    let t587 = mul_add(P::splat(P::lane(t400, 0)), t581, t569);
+    // constant and copied elements
+    let t588 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t589 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t590 = t510 + P::triple([t567, c(0.0), c(0.0)]);
+    let t591 = platform_rotation[0][1] * P::lane(t392, 1);
+    let t592 = P::splat(P::lane(t400, 1)) * t558;
+    let t593 = P::splat(P::lane(t392, 0)) * t585;
+    // rotation of the platform seen from the base
+    let t594 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t595 = P::triple([P::lane(t505, 1), P::lane(t505, 2), P::lane(t505, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t596 = mul_add(t560, t572, t536 * t546);
+    let t597 = mul_add(t561, t572, t537 * t546);
+    let t598 = mul_add(t562, t572, t538 * t546);
+    // mass matrix M_p of the platform
+    let t599 = P::mul_add(platform_rotation[1][2], P::lane(t432, 2), t574);
+    // moment of the inertia force about the platform origin
+    let t600 = neg_mul_add(t594, t595, mul_add(t236, t571, t545));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t601 = mul_add(t230, t572, t321 * t546);
+    let t602 = mul_add(t238, t572, t299 * t546);
+    let t603 = mul_add(t239, t572, t322 * t546);
+    // mass matrix M_p of the platform
+    let t604 = t578 - P::lane(t550, 2);
+    mass_matrix_p[1][5] = t604;
+    mass_matrix_p[5][1] = t604;
+    let t605 = P::triple([c(0.0), t556, c(0.0)]);
+    // constant and copied elements
+    let t606 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t582 =
+    let t607 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // inertia force less weight, without the actuators' own shares
-    let t583 = mul_sub(t358, P::splat(P::lane(t423, 0)), t556);
+    let t608 = mul_sub(t367, P::splat(P::lane(t432, 0)), t582);
     // mass matrix of the legs
-    let t584 = t557 + t580;
+    let t609 = t583 + t605;
     // mass matrix M_p of the platform
-    let t585 = neg_mul_add(P::splat(t558), t581, t565);
-    let t586 = P::mul_add(platform_rotation[0][2], P::lane(t382, 1), t560);
-    let t587 = P::mul_add(platform_rotation[0][0], P::lane(t382, 2), t566);
-    let t588 = P::triple([c(0.0), t544, c(0.0)]);
-    let t589 = mul_add(P::splat(P::lane(t382, 2)), t582, t561);
-    let t590 = mul_add(P::splat(P::lane(t382, 0)), t555, t567);
-    let t591 = mul_add(P::splat(P::lane(t391, 0)), t581, t568);
-    let t592 = -(t550 + (P::lane(t480, 2) + (P::lane(t480, 1) + P::lane(t480, 0))));
-    mass_matrix_p[1][3] = t592;
-    mass_matrix_p[3][1] = t592;
+    let t610 = neg_mul_add(P::splat(t584), t606, t590);
+    let t611 = P::mul_add(platform_rotation[0][2], P::lane(t392, 1), t586);
+    let t612 = P::mul_add(platform_rotation[0][0], P::lane(t392, 2), t591);
+    let t613 = P::triple([c(0.0), t567, c(0.0)]);
+    let t614 = mul_add(P::splat(P::lane(t392, 2)), t607, t587);
+    let t615 = mul_add(P::splat(P::lane(t392, 0)), t581, t592);
+    let t616 = mul_add(P::splat(P::lane(t400, 0)), t606, t593);
+    let t617 = -(t573 + P::lane(t550, 0));
+    mass_matrix_p[1][3] = t617;
+    mass_matrix_p[3][1] = t617;
     // constant and copied elements
-    let t593 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t618 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t594 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
+    let t619 = P::triple([P::lane(t559, 1), P::lane(t559, 2), P::lane(t559, 0)]);
     // mass matrix of the legs
-    let t595 = P::triple([P::lane(t494, 2), P::lane(t551, 2), P::lane(t525, 2)]);
-    let t596 = P::triple([c(0.0), c(0.0), P::lane(t525, 1) + P::lane(t525, 0)]);
-    let t597 = t551 + t588;
+    let t620 = P::triple([P::lane(t510, 2), P::lane(t575, 2), P::lane(t539, 2)]);
+    let t621 = P::triple([c(0.0), c(0.0), P::lane(t539, 1) + P::lane(t539, 0)]);
+    let t622 = t575 + t613;
     // mass matrix M_p of the platform
-    let t598 = P::splat(P::lane(t382, 1)) * t536;
-    let t599 = P::splat(P::lane(t391, 1)) * t559;
+    let t623 = P::splat(P::lane(t392, 1)) * t558;
+    let t624 = P::splat(P::lane(t400, 1)) * t585;
     // first moments by platform coordinate of the payload's inertia force
-    let t600 = P::triple([P::lane(t547, 2), P::lane(t547, 0), P::lane(t547, 1)]);
+    let t625 = P::triple([P::lane(t570, 2), P::lane(t570, 0), P::lane(t570, 1)]);
     // mass matrix M_p of the platform
-    let t601 = t562 - (P::lane(t506, 2) + (P::lane(t506, 1) + P::lane(t506, 0)));
-    mass_matrix_p[2][3] = t601;
-    mass_matrix_p[3][2] = t601;
-    let t602 = t550 - (P::lane(t505, 2) + (P::lane(t505, 1) + P::lane(t505, 0)));
-    mass_matrix_p[0][4] = t602;
-    mass_matrix_p[4][0] = t602;
-    let t603 = P::triple([t592, t578, t579]);
+    let t626 = t599 + P::lane(t577, 0);
+    mass_matrix_p[2][3] = t626;
+    mass_matrix_p[3][2] = t626;
+    let t627 = t573 + P::lane(t576, 1);
+    mass_matrix_p[0][4] = t627;
+    mass_matrix_p[4][0] = t627;
+    let t628 = P::lane(t577, 1) - t578;
+    mass_matrix_p[2][4] = t628;
+    mass_matrix_p[4][2] = t628;
+    let t629 = P::lane(t576, 2) - t599;
+    mass_matrix_p[0][5] = t629;
+    mass_matrix_p[5][0] = t629;
+    let t630 = P::triple([t617, P::lane(t550, 1), t604]);
     // inertia less external wrench that the actuators must balance
-    let t604 = neg_mul_add(t593, t594, mul_add(t538, t564, t563));
+    let t631 = neg_mul_add(t618, t619, mul_add(t559, t589, t588));
     // mass of payload and platform-side leg ends
-    let t605 = P::triple([t534, c(0.0), c(0.0)]);
+    let t632 = P::triple([t556, c(0.0), c(0.0)]);
     // inertia less external wrench that the actuators must balance
-    let t606 = t603 * P::splat(platform_acceleration[1]);
+    let t633 = t630 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t607 = P::triple([P::lane(t504, 2), P::lane(t557, 2), P::lane(t532, 2)]);
-    let t608 = P::triple([c(0.0), c(0.0), P::lane(t532, 1) + P::lane(t532, 0)]);
+    let t634 = P::triple([P::lane(t519, 2), P::lane(t583, 2), P::lane(t563, 2)]);
+    let t635 = P::triple([c(0.0), c(0.0), P::lane(t563, 1) + P::lane(t563, 0)]);
     // mass matrix M_p of the platform
-    let t609 = t504 + t605;
+    let t636 = t519 + t632;
     // constant and copied elements
-    let t610 =
+    let t637 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t611 =
+    let t638 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t612 = mul_add(t338, P::splat(P::lane(t423, 1)), t583);
+    let t639 = mul_add(t345, P::splat(P::lane(t432, 1)), t608);
     // inertia less external wrench that the actuators must balance
-    let t613 = t584 * P::splat(platform_acceleration[1]);
+    let t640 = t609 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t614 = -(P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0)));
-    mass_matrix_p[0][3] = t614;
-    mass_matrix_p[3][0] = t614;
+    let t641 = -P::lane(t576, 0);
+    mass_matrix_p[0][3] = t641;
+    mass_matrix_p[3][0] = t641;
+    let t642 = -P::lane(t577, 2);
+    mass_matrix_p[2][5] = t642;
+    mass_matrix_p[5][2] = t642;
     // mass matrix M_p of the platform
-    let t615 = -(t552 + (P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0))));
-    mass_matrix_p[2][4] = t615;
-    mass_matrix_p[4][2] = t615;
-    let t616 = -(t562 + (P::lane(t499, 2) + (P::lane(t499, 1) + P::lane(t499, 0))));
-    mass_matrix_p[0][5] = t616;
-    mass_matrix_p[5][0] = t616;
+    let t643 = neg_mul_add(t585, P::splat(t611), t610);
+    let t644 = P::mul_add(platform_rotation[0][2], P::lane(t400, 2), t612);
+    let t645 = mul_add(P::splat(P::lane(t392, 1)), t607, t615);
+    let t646 = mul_add(P::splat(P::lane(t392, 2)), t581, t623);
+    let t647 = P::triple([c(0.0), c(0.0), t567]);
+    let t648 = mul_add(P::splat(P::lane(t392, 2)), t637, t616);
+    let t649 = mul_add(P::splat(P::lane(t392, 0)), t606, t624);
     // mass matrix of the legs
-    let t617 = -(P::lane(t524, 2) + (P::lane(t524, 1) + P::lane(t524, 0)));
-    mass_matrix_p[2][5] = t617;
-    mass_matrix_p[5][2] = t617;
+    let t650 = P::triple([t641, t627, t629]);
     // mass matrix M_p of the platform
-    let t618 = neg_mul_add(t559, P::splat(t586), t585);
-    let t619 = P::mul_add(platform_rotation[0][2], P::lane(t391, 2), t587);
-    let t620 = mul_add(P::splat(P::lane(t382, 1)), t582, t590);
-    let t621 = mul_add(P::splat(P::lane(t382, 2)), t555, t598);
-    let t622 = P::triple([c(0.0), c(0.0), t544]);
-    let t623 = mul_add(P::splat(P::lane(t382, 2)), t610, t591);
-    let t624 = mul_add(P::splat(P::lane(t382, 0)), t581, t599);
+    let t651 = P::triple([t626, t628, t642]);
     // mass matrix of the legs
-    let t625 = P::triple([t614, t602, t616]);
+    let t652 = t620 + t621 + t647;
     // mass matrix M_p of the platform
-    let t626 = P::triple([t601, t615, t617]);
-    // mass matrix of the legs
-    let t627 = t595 + t596 + t622;
-    // mass matrix M_p of the platform
-    let t628 = P::splat(P::lane(t382, 1)) * t559;
+    let t653 = P::splat(P::lane(t392, 1)) * t585;
     // rotation of the platform seen from the base
-    let t629 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    let t654 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t630 = P::triple([P::lane(t547, 1), P::lane(t547, 2), P::lane(t547, 0)]);
+    let t655 = P::triple([P::lane(t570, 1), P::lane(t570, 2), P::lane(t570, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t631 = P::triple([P::lane(t571, 0), P::lane(t572, 0), P::lane(t573, 0)]);
-    let t632 = P::triple([P::lane(t571, 1), P::lane(t572, 1), P::lane(t573, 1)]);
+    let t656 = P::triple([P::lane(t596, 0), P::lane(t597, 0), P::lane(t598, 0)]);
+    let t657 = P::triple([P::lane(t596, 1), P::lane(t597, 1), P::lane(t598, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t633 = neg_mul_add(t626, P::splat(platform_acceleration[2]), t604);
+    let t658 = neg_mul_add(t651, P::splat(platform_acceleration[2]), t631);
     // moment of the inertia force about the platform origin
-    let t634 = neg_mul_add(t629, t630, mul_add(t262, t600, t574));
+    let t659 = neg_mul_add(t654, t655, mul_add(t266, t625, t600));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t635 = P::triple([P::lane(t575, 0), P::lane(t576, 0), P::lane(t577, 0)]);
-    let t636 = P::triple([P::lane(t575, 1), P::lane(t576, 1), P::lane(t577, 1)]);
+    let t660 = P::triple([P::lane(t601, 0), P::lane(t602, 0), P::lane(t603, 0)]);
+    let t661 = P::triple([P::lane(t601, 1), P::lane(t602, 1), P::lane(t603, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t637 = mul_add(t609, P::splat(platform_acceleration[0]), t613);
+    let t662 = mul_add(t636, P::splat(platform_acceleration[0]), t640);
     // mass matrix of the legs
-    let t638 = t607 + t608 + P::triple([c(0.0), c(0.0), t534]);
+    let t663 = t634 + t635 + P::triple([c(0.0), c(0.0), t556]);
     // constant and copied elements
-    let t639 =
+    let t664 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // inertia force less weight, without the actuators' own shares
-    let t640 = mul_add(t359, P::splat(P::lane(t423, 2)), t612);
+    let t665 = mul_add(t368, P::splat(P::lane(t432, 2)), t639);
     // mass matrix M_p of the platform
-    let t641 = neg_mul_add(t610, P::splat(t619), t618);
-    let t642 = neg_mul_add(t620, t639, neg_mul_add(t589, t611, t597));
-    let t643 = mul_add(P::splat(P::lane(t391, 2)), t582, t621);
-    let t644 = neg_mul_add(P::splat(platform_rotation[2][0]), t623, t627);
-    let t645 = mul_add(P::splat(P::lane(t382, 1)), t610, t624);
-    let t646 = mul_add(P::splat(P::lane(t382, 2)), t581, t628);
+    let t666 = neg_mul_add(t637, P::splat(t644), t643);
+    let t667 = neg_mul_add(t645, t664, neg_mul_add(t614, t638, t622));
+    let t668 = mul_add(P::splat(P::lane(t400, 2)), t607, t646);
+    let t669 = neg_mul_add(P::splat(platform_rotation[2][0]), t648, t652);
+    let t670 = mul_add(P::splat(P::lane(t392, 1)), t637, t649);
+    let t671 = mul_add(P::splat(P::lane(t392, 2)), t606, t653);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t647 = P::triple([P::lane(t571, 2), P::lane(t572, 2), P::lane(t573, 2)]);
-    let t648 = P::triple([P::lane(t575, 2), P::lane(t576, 2), P::lane(t577, 2)]);
+    let t672 = P::triple([P::lane(t596, 2), P::lane(t597, 2), P::lane(t598, 2)]);
+    let t673 = P::triple([P::lane(t601, 2), P::lane(t602, 2), P::lane(t603, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t649 = t633 - mul_add(t625, P::splat(platform_acceleration[0]), t606);
-    let t650 = mul_add(P::splat(platform_acceleration[2]), t638, t637);
+    let t674 = t658 - mul_add(t650, P::splat(platform_acceleration[0]), t633);
+    let t675 = mul_add(P::splat(platform_acceleration[2]), t663, t662);
     // constant and copied elements
-    let t651 =
+    let t676 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t652 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t677 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t653 = neg_mul_add(t643, t651, t642);
-    let t654 = neg_mul_add(P::splat(platform_rotation[2][1]), t645, t644);
-    let t655 = mul_add(P::splat(P::lane(t391, 2)), t610, t646);
+    let t678 = neg_mul_add(t668, t676, t667);
+    let t679 = neg_mul_add(P::splat(platform_rotation[2][1]), t670, t669);
+    let t680 = mul_add(P::splat(P::lane(t400, 2)), t637, t671);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t656 = neg_mul_add(P::splat(P::lane(t634, 0)), t652, t631 + t632 + t647);
+    let t681 = neg_mul_add(P::splat(P::lane(t659, 0)), t677, t656 + t657 + t672);
     // inertia less external wrench that the actuators must balance
-    let t657 = neg_mul_add(t641, P::splat(platform_acceleration[3]), t649);
+    let t682 = neg_mul_add(t666, P::splat(platform_acceleration[3]), t674);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t658 = mul_add(t652, P::splat(P::lane(t640, 0)), t635 + t636 + t648);
+    let t683 = mul_add(t677, P::splat(P::lane(t665, 0)), t660 + t661 + t673);
     // mass matrix of the legs
-    let t659 = P::triple([t614, t592, t601]);
+    let t684 = P::triple([t641, t617, t626]);
     // constant and copied elements
-    let t660 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t685 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // inertia less external wrench that the actuators must balance
-    let t661 = mul_add(P::splat(platform_acceleration[3]), t659, t650);
+    let t686 = mul_add(P::splat(platform_acceleration[3]), t684, t675);
     // mass matrix M_p of the platform
-    let t662 = neg_mul_add(P::splat(platform_rotation[2][2]), t655, t654);
+    let t687 = neg_mul_add(P::splat(platform_rotation[2][2]), t680, t679);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t663 = mul_sub(P::splat(P::lane(t634, 1)), t660, t656);
+    let t688 = mul_sub(P::splat(P::lane(t659, 1)), t685, t681);
     // inertia less external wrench that the actuators must balance
-    let t664 = neg_mul_add(t653, P::splat(platform_acceleration[4]), t657);
+    let t689 = neg_mul_add(t678, P::splat(platform_acceleration[4]), t682);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t665 = mul_add(P::splat(P::lane(t640, 1)), t660, t658);
+    let t690 = mul_add(P::splat(P::lane(t665, 1)), t685, t683);
     // mass matrix M_p of the platform
-    let t666 = P::triple([t602, t578, t615]);
-    let t667 = P::triple([t616, t579, t617]);
+    let t691 = P::triple([t627, P::lane(t550, 1), t628]);
+    let t692 = P::triple([t629, t604, t642]);
     // constant and copied elements
-    let t668 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t693 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
     // inertia less external wrench that the actuators must balance
-    let t669 = mul_sub(t667, P::splat(platform_acceleration[5]), t668);
+    let t694 = mul_sub(t692, P::splat(platform_acceleration[5]), t693);
     // constant and copied elements
-    let t670 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t695 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t671 = mul_add(P::splat(P::lane(t634, 2)), t670, t663);
-    let t672 = mul_add(P::splat(P::lane(t640, 2)), t670, t665);
+    let t696 = mul_add(P::splat(P::lane(t659, 2)), t695, t688);
+    let t697 = mul_add(P::splat(P::lane(t665, 2)), t695, t690);
     // inertia less external wrench that the actuators must balance
-    let t673 = mul_add(P::splat(platform_acceleration[4]), t666, t661) + t669;
-    let t674 = neg_mul_add(t662, P::splat(platform_acceleration[5]), t664) + t671;
-    let t675 = t672 + t673;
-    let t676 = -P::lane(t674, 0);
-    let t677 = -P::lane(t674, 1);
-    let t678 = -P::lane(t674, 2);
+    let t698 = mul_add(P::splat(platform_acceleration[4]), t691, t686) + t694;
+    let t699 = neg_mul_add(t687, P::splat(platform_acceleration[5]), t689) + t696;
+    let t700 = t697 + t698;
+    let t701 = -P::lane(t699, 0);
+    let t702 = -P::lane(t699, 1);
+    let t703 = -P::lane(t699, 2);
     // force along the actuator that balances the remaining wrench
     let axial_reaction = solve_general(
         &[
-            [P::lane(t226, 0), P::lane(t226, 1), P::lane(t226, 2), P::lane(t313, 0), P::lane(t313, 1), P::lane(t313, 2)],
-            [P::lane(t235, 0), P::lane(t235, 1), P::lane(t235, 2), P::lane(t294, 0), P::lane(t294, 1), P::lane(t294, 2)],
-            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t314, 0), P::lane(t314, 1), P::lane(t314, 2)],
-            [P::lane(t539, 0), P::lane(t539, 1), P::lane(t539, 2), P::lane(t521, 0), P::lane(t521, 1), P::lane(t521, 2)],
-            [P::lane(t540, 0), P::lane(t540, 1), P::lane(t540, 2), P::lane(t522, 0), P::lane(t522, 1), P::lane(t522, 2)],
-            [P::lane(t541, 0), P::lane(t541, 1), P::lane(t541, 2), P::lane(t523, 0), P::lane(t523, 1), P::lane(t523, 2)],
+            [P::lane(t230, 0), P::lane(t230, 1), P::lane(t230, 2), P::lane(t321, 0), P::lane(t321, 1), P::lane(t321, 2)],
+            [P::lane(t238, 0), P::lane(t238, 1), P::lane(t238, 2), P::lane(t299, 0), P::lane(t299, 1), P::lane(t299, 2)],
+            [P::lane(t239, 0), P::lane(t239, 1), P::lane(t239, 2), P::lane(t322, 0), P::lane(t322, 1), P::lane(t322, 2)],
+            [P::lane(t560, 0), P::lane(t560, 1), P::lane(t560, 2), P::lane(t536, 0), P::lane(t536, 1), P::lane(t536, 2)],
+            [P::lane(t561, 0), P::lane(t561, 1), P::lane(t561, 2), P::lane(t537, 0), P::lane(t537, 1), P::lane(t537, 2)],
+            [P::lane(t562, 0), P::lane(t562, 1), P::lane(t562, 2), P::lane(t538, 0), P::lane(t538, 1), P::lane(t538, 2)],
         ],
-        &[P::lane(t675, 0), P::lane(t675, 1), P::lane(t675, 2), t676, t677, t678],
+        &[P::lane(t700, 0), P::lane(t700, 1), P::lane(t700, 2), t701, t702, t703],
     );
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t178, 0);
+    actuator_length[0] = P::lane(t183, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t178, 1);
+    actuator_length[1] = P::lane(t183, 1);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t178, 2);
+    actuator_length[2] = P::lane(t183, 2);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t220, 0);
+    actuator_length[3] = P::lane(t224, 0);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t220, 1);
+    actuator_length[4] = P::lane(t224, 1);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t220, 2);
+    actuator_length[5] = P::lane(t224, 2);
     // leg 1: rate of the rod's extent along the actuator axis
-    actuator_velocity[0] = P::lane(t214, 0);
+    actuator_velocity[0] = P::lane(t218, 0);
     // leg 2: rate of the rod's extent along the actuator axis
-    actuator_velocity[1] = P::lane(t214, 1);
+    actuator_velocity[1] = P::lane(t218, 1);
     // leg 3: rate of the rod's extent along the actuator axis
-    actuator_velocity[2] = P::lane(t214, 2);
+    actuator_velocity[2] = P::lane(t218, 2);
     // leg 4: rate of the rod's extent along the actuator axis
-    actuator_velocity[3] = P::lane(t274, 0);
+    actuator_velocity[3] = P::lane(t277, 0);
     // leg 5: rate of the rod's extent along the actuator axis
-    actuator_velocity[4] = P::lane(t274, 1);
+    actuator_velocity[4] = P::lane(t277, 1);
     // leg 6: rate of the rod's extent along the actuator axis
-    actuator_velocity[5] = P::lane(t274, 2);
+    actuator_velocity[5] = P::lane(t277, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t226, 0);
-    jacobian_dp[0][1] = P::lane(t235, 0);
-    jacobian_dp[0][2] = P::lane(t243, 0);
+    jacobian_dp[0][0] = P::lane(t230, 0);
+    jacobian_dp[0][1] = P::lane(t238, 0);
+    jacobian_dp[0][2] = P::lane(t239, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t539, 0);
-    jacobian_dp[0][4] = P::lane(t540, 0);
-    jacobian_dp[0][5] = P::lane(t541, 0);
+    jacobian_dp[0][3] = P::lane(t560, 0);
+    jacobian_dp[0][4] = P::lane(t561, 0);
+    jacobian_dp[0][5] = P::lane(t562, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t226, 1);
-    jacobian_dp[1][1] = P::lane(t235, 1);
-    jacobian_dp[1][2] = P::lane(t243, 1);
+    jacobian_dp[1][0] = P::lane(t230, 1);
+    jacobian_dp[1][1] = P::lane(t238, 1);
+    jacobian_dp[1][2] = P::lane(t239, 1);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t539, 1);
-    jacobian_dp[1][4] = P::lane(t540, 1);
-    jacobian_dp[1][5] = P::lane(t541, 1);
+    jacobian_dp[1][3] = P::lane(t560, 1);
+    jacobian_dp[1][4] = P::lane(t561, 1);
+    jacobian_dp[1][5] = P::lane(t562, 1);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t226, 2);
-    jacobian_dp[2][1] = P::lane(t235, 2);
-    jacobian_dp[2][2] = P::lane(t243, 2);
+    jacobian_dp[2][0] = P::lane(t230, 2);
+    jacobian_dp[2][1] = P::lane(t238, 2);
+    jacobian_dp[2][2] = P::lane(t239, 2);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t539, 2);
-    jacobian_dp[2][4] = P::lane(t540, 2);
-    jacobian_dp[2][5] = P::lane(t541, 2);
+    jacobian_dp[2][3] = P::lane(t560, 2);
+    jacobian_dp[2][4] = P::lane(t561, 2);
+    jacobian_dp[2][5] = P::lane(t562, 2);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t313, 0);
-    jacobian_dp[3][1] = P::lane(t294, 0);
-    jacobian_dp[3][2] = P::lane(t314, 0);
+    jacobian_dp[3][0] = P::lane(t321, 0);
+    jacobian_dp[3][1] = P::lane(t299, 0);
+    jacobian_dp[3][2] = P::lane(t322, 0);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t521, 0);
-    jacobian_dp[3][4] = P::lane(t522, 0);
-    jacobian_dp[3][5] = P::lane(t523, 0);
+    jacobian_dp[3][3] = P::lane(t536, 0);
+    jacobian_dp[3][4] = P::lane(t537, 0);
+    jacobian_dp[3][5] = P::lane(t538, 0);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t313, 1);
-    jacobian_dp[4][1] = P::lane(t294, 1);
-    jacobian_dp[4][2] = P::lane(t314, 1);
+    jacobian_dp[4][0] = P::lane(t321, 1);
+    jacobian_dp[4][1] = P::lane(t299, 1);
+    jacobian_dp[4][2] = P::lane(t322, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t521, 1);
-    jacobian_dp[4][4] = P::lane(t522, 1);
-    jacobian_dp[4][5] = P::lane(t523, 1);
+    jacobian_dp[4][3] = P::lane(t536, 1);
+    jacobian_dp[4][4] = P::lane(t537, 1);
+    jacobian_dp[4][5] = P::lane(t538, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t313, 2);
-    jacobian_dp[5][1] = P::lane(t294, 2);
-    jacobian_dp[5][2] = P::lane(t314, 2);
+    jacobian_dp[5][0] = P::lane(t321, 2);
+    jacobian_dp[5][1] = P::lane(t299, 2);
+    jacobian_dp[5][2] = P::lane(t322, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t521, 2);
-    jacobian_dp[5][4] = P::lane(t522, 2);
-    jacobian_dp[5][5] = P::lane(t523, 2);
+    jacobian_dp[5][3] = P::lane(t536, 2);
+    jacobian_dp[5][4] = P::lane(t537, 2);
+    jacobian_dp[5][5] = P::lane(t538, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t609, 0);
+    mass_matrix_p[0][0] = P::lane(t636, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t504, 1);
-    mass_matrix_p[0][2] = P::lane(t504, 2);
-    mass_matrix_p[1][0] = P::lane(t504, 1);
+    mass_matrix_p[0][1] = P::lane(t519, 1);
+    mass_matrix_p[0][2] = P::lane(t519, 2);
+    mass_matrix_p[1][0] = P::lane(t519, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t584, 1);
+    mass_matrix_p[1][1] = P::lane(t609, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t557, 2);
-    mass_matrix_p[2][0] = P::lane(t504, 2);
-    mass_matrix_p[2][1] = P::lane(t557, 2);
+    mass_matrix_p[1][2] = P::lane(t583, 2);
+    mass_matrix_p[1][4] = P::lane(t550, 1);
+    mass_matrix_p[2][0] = P::lane(t519, 2);
+    mass_matrix_p[2][1] = P::lane(t583, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t638, 2);
-    mass_matrix_p[3][3] = P::lane(t641, 0);
-    mass_matrix_p[3][4] = P::lane(t641, 1);
-    mass_matrix_p[3][5] = P::lane(t641, 2);
-    mass_matrix_p[4][3] = P::lane(t641, 1);
-    mass_matrix_p[4][4] = P::lane(t653, 1);
-    mass_matrix_p[4][5] = P::lane(t653, 2);
-    mass_matrix_p[5][3] = P::lane(t641, 2);
-    mass_matrix_p[5][4] = P::lane(t653, 2);
-    mass_matrix_p[5][5] = P::lane(t662, 2);
+    mass_matrix_p[2][2] = P::lane(t663, 2);
+    mass_matrix_p[3][3] = P::lane(t666, 0);
+    mass_matrix_p[3][4] = P::lane(t666, 1);
+    mass_matrix_p[3][5] = P::lane(t666, 2);
+    // mass matrix of the legs
+    mass_matrix_p[4][1] = P::lane(t550, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[4][3] = P::lane(t666, 1);
+    mass_matrix_p[4][4] = P::lane(t678, 1);
+    mass_matrix_p[4][5] = P::lane(t678, 2);
+    mass_matrix_p[5][3] = P::lane(t666, 2);
+    mass_matrix_p[5][4] = P::lane(t678, 2);
+    mass_matrix_p[5][5] = P::lane(t687, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t672, 0);
-    total_bias[1] = P::lane(t672, 1);
-    total_bias[2] = P::lane(t672, 2);
-    total_bias[3] = -P::lane(t671, 0);
-    total_bias[4] = -P::lane(t671, 1);
-    total_bias[5] = -P::lane(t671, 2);
+    total_bias[0] = P::lane(t697, 0);
+    total_bias[1] = P::lane(t697, 1);
+    total_bias[2] = P::lane(t697, 2);
+    total_bias[3] = -P::lane(t696, 0);
+    total_bias[4] = -P::lane(t696, 1);
+    total_bias[5] = -P::lane(t696, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];
@@ -34831,7 +34891,7 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     let t20 =
         P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
     let t21 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
     // legs 1, 2, 3: platform joint from the platform origin
@@ -34846,106 +34906,108 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // legs 1, 2, 3: platform joint from the platform origin
     let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
     let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // constant and copied elements
+    let t34 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t35 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
     // constant and copied elements
     let t36 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
     // legs 1, 2, 3: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
+    let t38 = t18 * P::splat(P::lane(t14, 2));
+    let t39 = mul_add(P::splat(P::lane(t17, 1)), t36, t33);
     // constant and copied elements
-    let t39 =
-        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t40 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
-    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
-    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
-    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
-    // constant and copied elements
-    let t44 =
+    let t40 =
         P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
-    let t45 =
+    let t41 =
         P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    let t46 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
     // legs 1, 2, 3: platform joint from the base point
-    let t47 = P::splat(P::lane(t22, 2)) + t37 - t45;
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t21;
+    let t43 = P::splat(P::lane(t22, 1)) + t32 - t20;
     // legs 4, 5, 6: platform joint from the platform origin
-    let t48 = mul_add(t21, P::splat(P::lane(t17, 2)), t41);
-    // legs 4, 5, 6: platform joint from the base point
-    let t49 = P::splat(P::lane(t22, 1)) + t38 - t46;
+    let t44 = mul_add(P::splat(P::lane(t17, 0)), t36, t35);
+    let t45 = mul_add(t19, P::splat(P::lane(t15, 2)), t38);
     // constant and copied elements
-    let t50 =
+    let t46 =
         P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
-    let t51 =
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t41;
+    // constant and copied elements
+    let t48 =
+        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+    let t49 =
         P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t50 = mul_add(P::splat(P::lane(t17, 2)), t36, t45);
+    // legs 4, 5, 6: platform joint from the base point
+    let t51 = P::splat(P::lane(t22, 1)) + t39 - t48;
+    // constant and copied elements
     let t52 =
         P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t53 = P::splat(P::lane(t22, 0)) + t40 - t51;
-    // constant and copied elements
-    let t54 =
+    let t53 =
         P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 0)) + t44 - t49;
+    // constant and copied elements
     let t55 =
         P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
     let t56 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t46, t47, mul_add(t40, t42, t34 * t43));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t58 = t56 * t56;
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t60 = P::splat(P::lane(t22, 2)) + t50 - t55;
+    // constant and copied elements
+    let t61 =
         P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
     // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t57 = mul_add(t47, t50, mul_add(t42, t44, t39 * t43));
-    // legs 4, 5, 6: platform joint from the base point
-    let t58 = P::splat(P::lane(t22, 2)) + t48 - t55;
-    // constant and copied elements
-    let t59 =
-        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
-    // angular velocity of the base
-    let t60 = t1 * P::splat(base_velocity[4]);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t61 = t59 * t59;
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t62 = neg_mul_add(t39, t57, t43);
-    let t63 = neg_mul_add(t44, t57, t42);
-    let t64 = neg_mul_add(t50, t57, t47);
+    let t62 = neg_mul_add(t34, t57, t43);
+    let t63 = neg_mul_add(t40, t57, t42);
+    let t64 = neg_mul_add(t46, t57, t47);
     // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t65 = mul_add(t56, t58, mul_add(t53, t54, t49 * t52));
+    let t65 = mul_add(t60, t61, mul_add(t53, t54, t51 * t52));
     // angular velocity of the base
-    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t59);
     // velocity of the platform origin relative to the base
     let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t68 = t1 * P::splat(platform_velocity[4]);
     // constant and copied elements
-    let t68 =
+    let t69 =
         P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
-    // angular velocity of the platform
-    let t69 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t70 = t68 * t68;
     // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t71 = neg_mul_add(t52, t65, t49);
-    let t72 = neg_mul_add(t54, t65, t53);
-    let t73 = neg_mul_add(t56, t65, t58);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t74 = mul_add(t63, t63, t62 * t62);
+    let t70 = neg_mul_add(t52, t65, t51);
     // angular velocity of the base
-    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    let t71 = mul_add(t5, P::splat(base_velocity[5]), t66);
     // velocity of the platform origin relative to the base
-    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    let t72 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t73 = mul_add(t63, t63, t62 * t62);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t74 = neg_mul_add(t53, t65, t54);
+    let t75 = neg_mul_add(t61, t65, t60);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t76 = t69 * t69;
     // angular velocity of the platform
-    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t68);
     // angular acceleration of the base
     let t78 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t79 = mul_add(t72, t72, t71 * t71);
     // velocity of the platform origin relative to the base
-    let t80 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
+    let t79 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t72);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t80 = mul_add(t74, t74, t70 * t70);
     // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t81 = sqrt(neg_mul_add(t64, t64, t61) - t74);
+    let t81 = sqrt(neg_mul_add(t64, t64, t58) - t73);
     // angular acceleration of the base
     let t82 = mul_add(t2, P::splat(base_acceleration[3]), t78);
     // angular velocity of the platform
@@ -34953,32 +35015,32 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // platform origin seen from the base
     let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     // angular velocity of the base
-    let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t86 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t87 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
+    let t85 = P::triple([P::lane(t71, 1), P::lane(t71, 2), P::lane(t71, 0)]);
+    let t86 = P::triple([P::lane(t71, 0), P::lane(t71, 2), P::lane(t71, 0)]);
+    let t87 = P::triple([P::lane(t71, 1), P::lane(t71, 1), P::lane(t71, 2)]);
     // angular acceleration of the base
     let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
     // angular velocity of the platform relative to the base
-    let t89 = t75 - t83;
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t90 = sqrt(neg_mul_add(t73, t73, t70) - t79);
+    let t89 = t71 - t83;
     // platform origin seen from the base
-    let t91 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    let t90 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
     // angular velocity of the base
-    let t92 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t91 = P::triple([P::lane(t71, 2), P::lane(t71, 0), P::lane(t71, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t93 = t86 * t87;
+    let t92 = t86 * t87;
     // velocity of the platform origin relative to the base
-    let t94 = mul_add(t91, t92, neg_mul_add(t84, t85, t80));
+    let t93 = mul_add(t90, t91, neg_mul_add(t84, t85, t79));
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t94 = sqrt(neg_mul_add(t75, t75, t76) - t80);
     // angular velocity of the base
-    let t95 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t96 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t95 = P::triple([P::lane(t71, 2), P::lane(t71, 2), P::lane(t71, 0)]);
+    let t96 = P::triple([P::lane(t71, 1), P::lane(t71, 0), P::lane(t71, 1)]);
     // acceleration per base coordinate of points that move with the base
     let t97 = mul_add(t96, t96, t95 * t95);
     // angular acceleration of the base
     let t98 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t99 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
+    let t99 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
     // angular velocity of the platform relative to the base
     let t100 = P::triple([P::lane(t89, 2), P::lane(t89, 0), P::lane(t89, 1)]);
     // acceleration of the base origin less gravity
@@ -34989,7 +35051,7 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // acceleration per base coordinate of points that move with the base
     let t104 = t98 + t99;
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t105 = neg_mul_add(t31, P::splat(P::lane(t89, 2)), P::splat(P::lane(t94, 1)));
+    let t105 = neg_mul_add(t31, P::splat(P::lane(t89, 2)), P::splat(P::lane(t93, 1)));
     // acceleration per base coordinate of points that move with the base
     let t106 = mul_sub(t86, t87, t103);
     // angular velocity of the platform
@@ -35001,864 +35063,860 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // legs 1, 2, 3: reciprocal of that extent
     let t110 = w(1.0) / t81;
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t111 = neg_mul_add(t37, P::splat(P::lane(t89, 1)), P::splat(P::lane(t94, 0)));
+    let t111 = neg_mul_add(t37, P::splat(P::lane(t89, 1)), P::splat(P::lane(t93, 0)));
     // acceleration of the base origin less gravity
     let t112 = base_acceleration[2] - parameters.gravity[2];
     // rate of that angular velocity
-    let t113 = mul_add(t92, t109, neg_mul_add(t85, t100, t88));
+    let t113 = mul_add(t91, t109, neg_mul_add(t85, t100, t88));
     // legs 1, 2, 3: velocity of the platform joint relative to the base
     let t114 = mul_add(t37, P::splat(P::lane(t89, 0)), t105);
     // acceleration of the base origin less gravity
     let t115 = mul_add(t5, P::splat(t112), mul_add(t2, P::splat(t101), t102));
     // acceleration per base coordinate of points that move with the base
     let t116 = P::triple([P::lane(t106, 0), -P::lane(t97, 1), P::lane(t104, 2)]);
-    // constant and copied elements
-    let t117 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t118 = mul_add(t33, P::splat(P::lane(t89, 2)), t111);
-    let t119 = neg_mul_add(t33, P::splat(P::lane(t89, 0)), P::splat(P::lane(t94, 2)));
+    let t117 = mul_add(t32, P::splat(P::lane(t89, 2)), t111);
+    let t118 = neg_mul_add(t32, P::splat(P::lane(t89, 0)), P::splat(P::lane(t93, 2)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t120 = P::splat(P::lane(t22, 1)) * t116;
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t121 = t117 / t70;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t122 = neg_mul_add(t40, P::splat(P::lane(t89, 2)), P::splat(P::lane(t94, 1)));
+    let t119 = P::splat(P::lane(t22, 1)) * t116;
     // acceleration per base coordinate of points that move with the base
-    let t123 = P::triple([-P::lane(t97, 0), P::lane(t104, 1), P::lane(t106, 2)]);
-    let t124 = P::triple([P::lane(t104, 0), P::lane(t106, 1), -P::lane(t97, 2)]);
+    let t120 = P::triple([-P::lane(t97, 0), P::lane(t104, 1), P::lane(t106, 2)]);
+    let t121 = P::triple([P::lane(t104, 0), P::lane(t106, 1), -P::lane(t97, 2)]);
     // velocity of the platform origin relative to the base
-    let t125 = P::triple([P::lane(t94, 1), P::lane(t94, 2), P::lane(t94, 0)]);
+    let t122 = P::triple([P::lane(t93, 1), P::lane(t93, 2), P::lane(t93, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t126 = P::triple([P::lane(t108, 1), P::lane(t108, 2), P::lane(t108, 0)]);
+    let t123 = P::triple([P::lane(t108, 1), P::lane(t108, 2), P::lane(t108, 0)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t127 = t37 * P::splat(P::lane(t113, 0));
+    let t124 = t37 * P::splat(P::lane(t113, 0));
     // constant and copied elements
-    let t128 =
-        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    let t125 =
+        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t129 = mul_add(P::splat(P::lane(t22, 2)), t124, t115);
-    // legs 4, 5, 6: reciprocal of that extent
-    let t130 = w(1.0) / t90;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t131 = t128 / t61;
+    let t126 = mul_add(P::splat(P::lane(t22, 2)), t121, t115);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t127 = t125 / t76;
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t132 = neg_mul_add(t48, P::splat(P::lane(t89, 1)), P::splat(P::lane(t94, 0)));
+    let t128 = neg_mul_add(t44, P::splat(P::lane(t89, 2)), P::splat(P::lane(t93, 1)));
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t133 = mul_add(t31, P::splat(P::lane(t89, 1)), t119);
+    let t129 = mul_add(t31, P::splat(P::lane(t89, 1)), t118);
     // rotation of the platform seen from the base
-    let t134 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t135 = mul_add(t48, P::splat(P::lane(t89, 0)), t122);
+    let t130 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     // acceleration per platform coordinate of points of the platform
-    let t136 = mul_sub(t83, t134, t14 * t107);
+    let t131 = mul_sub(t83, t130, t14 * t107);
     // velocity of the platform origin relative to the base
-    let t137 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    let t132 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t138 = t33 * P::splat(P::lane(t113, 2));
-    let t139 = mul_sub(t31, P::splat(P::lane(t113, 2)), t127);
-    // rotation of the platform seen from the base
-    let t140 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t141 = mul_add(P::splat(P::lane(t22, 0)), t123, t120) + t129;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t142 = mul_add(t38, P::splat(P::lane(t89, 2)), t132);
-    let t143 = neg_mul_add(t38, P::splat(P::lane(t89, 0)), P::splat(P::lane(t94, 2)));
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t144 = mul_add(t50, t133, mul_add(t44, t118, t39 * t114));
-    // acceleration per platform coordinate of points of the platform
-    let t145 = mul_sub(t83, t140, t15 * t107);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t146 = mul_sub(t37, P::splat(P::lane(t113, 1)), t138);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t147 = mul_add(t62, t110, t39);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t148 = mul_add(P::splat(P::lane(t89, 2)), t118, t139);
-    let t149 = t31 * P::splat(P::lane(t113, 1));
+    let t133 = t32 * P::splat(P::lane(t113, 2));
+    let t134 = mul_sub(t31, P::splat(P::lane(t113, 2)), t124);
     // constant and copied elements
-    let t150 =
+    let t135 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    // legs 4, 5, 6: reciprocal of that extent
+    let t136 = w(1.0) / t94;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t137 = t135 / t58;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t138 = neg_mul_add(t50, P::splat(P::lane(t89, 1)), P::splat(P::lane(t93, 0)));
+    // rotation of the platform seen from the base
+    let t139 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t140 = mul_add(P::splat(P::lane(t22, 0)), t120, t119) + t126;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t141 = mul_add(t50, P::splat(P::lane(t89, 0)), t128);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t142 = mul_add(t46, t129, mul_add(t40, t117, t34 * t114));
+    // acceleration per platform coordinate of points of the platform
+    let t143 = mul_sub(t83, t139, t15 * t107);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t144 = mul_sub(t37, P::splat(P::lane(t113, 1)), t133);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t145 = mul_add(t62, t110, t34);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t146 = mul_add(P::splat(P::lane(t89, 2)), t117, t134);
+    let t147 = t31 * P::splat(P::lane(t113, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t148 = mul_sub(t108, t132, t122 * t123) + t140;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t149 = mul_add(t39, P::splat(P::lane(t89, 2)), t138);
+    let t150 = neg_mul_add(t39, P::splat(P::lane(t89, 0)), P::splat(P::lane(t93, 2)));
+    // rotation of the platform seen from the base
+    let t151 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t152 = mul_add(t63, t110, t40);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t153 = neg_mul_add(t34, t142, t114);
+    // acceleration per platform coordinate of points of the platform
+    let t154 = mul_sub(t83, t151, t17 * t107);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t155 = mul_add(P::splat(P::lane(t89, 1)), t129, t144);
+    let t156 = mul_sub(t32, P::splat(P::lane(t113, 0)), t147);
+    // constant and copied elements
+    let t157 =
         P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t151 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t152 = mul_sub(t108, t137, t125 * t126) + t141;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t153 = t48 * P::splat(P::lane(t113, 0));
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t154 = t150 * t151;
-    // rotation of the platform seen from the base
-    let t155 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t156 = mul_add(t63, t110, t44);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t157 = mul_add(t40, P::splat(P::lane(t89, 1)), t143);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t158 = neg_mul_add(t39, t144, t114);
-    // acceleration per platform coordinate of points of the platform
-    let t159 = mul_sub(t83, t155, t17 * t107);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t160 = mul_add(P::splat(P::lane(t89, 1)), t133, t146);
-    let t161 = mul_sub(t33, P::splat(P::lane(t113, 0)), t149);
-    // constant and copied elements
-    let t162 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t163 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    let t158 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
     // angular velocity of the platform
-    let t164 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t159 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t165 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t166 = t38 * P::splat(P::lane(t113, 2));
+    let t160 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t167 = neg_mul_add(P::splat(P::lane(t89, 0)), t133, t148);
+    let t161 = neg_mul_add(P::splat(P::lane(t89, 0)), t129, t146);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t168 = mul_sub(t40, P::splat(P::lane(t113, 2)), t153);
+    let t162 = t50 * P::splat(P::lane(t113, 0));
     // legs 1, 2, 3: actuator length d
-    let t169 = t57 - t81;
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t170 = t162 * t163;
+    let t163 = t57 - t81;
     // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t171 = mul_add(t150, t154, t121);
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t172 = w(1.0) - t162;
+    let t164 = t157 * t158;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t165 = mul_add(t44, P::splat(P::lane(t89, 1)), t150);
     // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t173 = neg_mul_add(t44, t144, t118);
+    let t166 = neg_mul_add(t40, t142, t117);
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t174 = mul_add(t64, t110, t50);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t175 = mul_add(t56, t157, mul_add(t54, t142, t52 * t135));
+    let t167 = mul_add(t64, t110, t46);
+    // constant and copied elements
+    let t168 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
+    let t169 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
     // acceleration per platform coordinate of points of the platform
-    let t176 = P::triple([P::lane(t145, 2), P::lane(t145, 0), P::lane(t145, 1)]);
+    let t170 = P::triple([P::lane(t143, 2), P::lane(t143, 0), P::lane(t143, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t177 = neg_mul_add(P::splat(P::lane(t89, 2)), t114, t160);
+    let t171 = neg_mul_add(P::splat(P::lane(t89, 2)), t114, t155);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t178 = mul_sub(t48, P::splat(P::lane(t113, 1)), t166);
+    let t172 = t39 * P::splat(P::lane(t113, 2));
+    let t173 = mul_sub(t44, P::splat(P::lane(t113, 2)), t162);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t179 = mul_add(P::splat(P::lane(t89, 0)), t114, t161);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t180 = mul_add(t71, t130, t52);
+    let t174 = mul_add(P::splat(P::lane(t89, 0)), t114, t156);
     // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t181 = mul_add(t162, t170, t131);
+    let t175 = t168 * t169;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t176 = mul_add(t157, t164, t127);
     // acceleration per platform coordinate of points of the platform
-    let t182 = mul_sub(t107, t136, t164 * t165);
+    let t177 = mul_sub(t107, t131, t159 * t160);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t183 = P::splat(P::lane(t152, 1)) + t167;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t184 = mul_add(P::splat(P::lane(t89, 2)), t142, t168);
-    let t185 = t40 * P::splat(P::lane(t113, 1));
+    let t178 = P::splat(P::lane(t148, 1)) + t161;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t186 = mul_add(t39, t169, t20);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t187 = w(1.0) - t150;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t188 = neg_mul_add(t50, t144, t133);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t189 = mul_add(t72, t130, t54);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t190 = neg_mul_add(t52, t175, t135);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t191 = mul_add(t133, t174, mul_add(t118, t156, t114 * t147));
-    // acceleration per platform coordinate of points of the platform
-    let t192 = mul_sub(t107, t145, t164 * t176);
-    let t193 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t194 = t177 + P::splat(P::lane(t152, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t195 = mul_add(P::splat(P::lane(t89, 1)), t157, t178);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t196 = neg_mul_add(P::splat(P::lane(t89, 1)), t118, t179);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t197 = mul_sub(t38, P::splat(P::lane(t113, 0)), t185);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t198 = mul_add(t44, t169, t36);
-    let t199 = mul_add(t50, t169, t45);
+    let t179 = mul_add(t34, t163, t20);
     // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t200 = mul_add(t172, t163 * t172, t131);
-    // second moment of payload and platform-side leg ends
-    let t201 = mul_add(t181, t12 * t12, t171 * (t19 * t19));
-    let t202 = mul_add(t181, t9 * t12, t171 * (t18 * t19));
-    let t203 = mul_add(t181, t12 * t13, t171 * (t19 * t21));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t204 = neg_mul_add(P::splat(P::lane(t89, 0)), t157, t184);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t205 = P::splat(P::lane(t97, 1)) * t186;
-    // legs 4, 5, 6: actuator length d
-    let t206 = t65 - t90;
+    let t180 = w(1.0) - t168;
     // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t207 = neg_mul_add(t54, t175, t142);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t208 = mul_add(t188, t188, mul_add(t173, t173, t158 * t158));
+    let t181 = mul_add(t61, t165, mul_add(t53, t149, t52 * t141));
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t182 = neg_mul_add(t46, t142, t129);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t183 = mul_sub(t50, P::splat(P::lane(t113, 1)), t172);
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t209 = mul_add(t73, t130, t56);
-    // constant and copied elements
-    let t210 =
-        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+    let t184 = mul_add(t70, t136, t52);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t185 = mul_add(t168, t175, t137);
     // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t211 = t144 - t191;
+    let t186 = mul_add(t129, t167, mul_add(t117, t152, t114 * t145));
     // acceleration per platform coordinate of points of the platform
-    let t212 = mul_sub(t107, t159, t164 * t193);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t213 = neg_mul_add(P::splat(P::lane(t89, 2)), t135, t195);
+    let t187 = mul_sub(t107, t143, t159 * t170);
+    let t188 = P::triple([P::lane(t154, 2), P::lane(t154, 0), P::lane(t154, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t214 = P::splat(P::lane(t152, 2)) + t196;
+    let t189 = t171 + P::splat(P::lane(t148, 0));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t215 = mul_add(P::splat(P::lane(t89, 0)), t135, t197);
+    let t190 = mul_add(P::splat(P::lane(t89, 2)), t149, t173);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t191 = neg_mul_add(P::splat(P::lane(t89, 1)), t117, t174);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t192 = t44 * P::splat(P::lane(t113, 1));
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t216 = P::splat(P::lane(t106, 0)) * t186;
-    let t217 = mul_add(P::splat(P::lane(t106, 1)), t199, P::splat(P::lane(t115, 1)));
-    let t218 = t50 * P::splat(P::lane(t75, 0));
+    let t193 = mul_add(t40, t163, t21);
+    let t194 = mul_add(t46, t163, t41);
+    let t195 = P::splat(P::lane(t97, 1)) * t179;
     // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t219 = mul_add(t187, t151 * t187, t121);
-    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
-    let t220 = t200 + t210;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t221 = P::splat(P::lane(t152, 1)) + t204;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t222 = t9 * P::splat(P::lane(t182, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t223 = mul_add(t52, t206, t46);
+    let t196 = w(1.0) - t157;
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t197 = mul_add(t74, t136, t53);
     // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t224 = neg_mul_add(t56, t175, t157);
+    let t198 = neg_mul_add(t52, t181, t141);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t199 = mul_add(P::splat(P::lane(t89, 1)), t165, t183);
+    let t200 = mul_sub(t39, P::splat(P::lane(t113, 0)), t192);
     // legs 1, 2, 3: actuator acceleration d''
-    let t225 = mul_add(t174, t214, mul_add(t156, t194, t147 * t183));
+    let t201 = mul_add(t182, t182, mul_add(t166, t166, t153 * t153));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t202 = mul_add(t180, t169 * t180, t137);
+    // second moment of payload and platform-side leg ends
+    let t203 = mul_add(t185, t12 * t12, t176 * (t19 * t19));
+    let t204 = mul_add(t185, t9 * t12, t176 * (t18 * t19));
+    let t205 = mul_add(t185, t12 * t13, t176 * (t19 * t36));
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t206 = t142 - t186;
+    // acceleration per platform coordinate of points of the platform
+    let t207 = mul_sub(t107, t154, t159 * t188);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t208 = neg_mul_add(P::splat(P::lane(t89, 0)), t165, t190);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t209 = P::splat(P::lane(t148, 2)) + t191;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t226 = mul_add(P::splat(P::lane(t104, 0)), t199, P::splat(P::lane(t115, 0)));
-    let t227 = t39 * P::splat(P::lane(t75, 2));
-    let t228 = mul_sub(t44, P::splat(P::lane(t75, 2)), t218);
+    let t210 = P::splat(P::lane(t106, 0)) * t179;
+    let t211 = mul_add(P::splat(P::lane(t106, 1)), t194, P::splat(P::lane(t115, 1)));
+    let t212 = t46 * P::splat(P::lane(t71, 0));
+    // legs 4, 5, 6: actuator length d
+    let t213 = t65 - t94;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t214 = t9 * P::splat(P::lane(t177, 1));
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t215 = neg_mul_add(t53, t181, t149);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t216 = mul_add(t75, t136, t61);
     // constant and copied elements
-    let t229 =
+    let t217 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t218 = neg_mul_add(P::splat(P::lane(t89, 2)), t141, t199);
+    let t219 = mul_add(P::splat(P::lane(t89, 0)), t141, t200);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t220 = mul_add(t167, t209, mul_add(t152, t189, t145 * t178));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t221 = mul_add(P::splat(P::lane(t104, 0)), t194, P::splat(P::lane(t115, 0)));
+    let t222 = t34 * P::splat(P::lane(t71, 2));
+    let t223 = mul_sub(t40, P::splat(P::lane(t71, 2)), t212);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t224 = mul_add(t196, t158 * t196, t127);
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t225 = t202 + t217;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t226 = P::splat(P::lane(t148, 1)) + t208;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t227 = t186 * w(2.0);
+    let t228 = mul_sub(P::splat(P::lane(t104, 1)), t193, t195) + t211;
+    let t229 = P::splat(P::lane(t104, 2)) * t179;
+    let t230 = t9 * P::splat(P::lane(t177, 0));
+    let t231 = mul_add(t12, P::splat(P::lane(t187, 1)), t214);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t232 = mul_add(t52, t213, t48);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t233 = neg_mul_add(t61, t181, t165);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t234 = mul_sub(t46, P::splat(P::lane(t71, 1)), t222);
+    // constant and copied elements
+    let t235 =
         P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t230 = mul_add(t157, t209, mul_add(t142, t189, t135 * t180));
+    let t236 = mul_add(t165, t216, mul_add(t149, t197, t141 * t184));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t231 = P::splat(P::lane(t152, 0)) + t213;
-    let t232 = neg_mul_add(P::splat(P::lane(t89, 1)), t142, t215);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t233 = t191 * w(2.0);
-    let t234 = mul_sub(P::splat(P::lane(t104, 1)), t198, t205) + t217;
-    let t235 = P::splat(P::lane(t104, 2)) * t186;
-    let t236 = t9 * P::splat(P::lane(t182, 0));
-    let t237 = mul_add(t12, P::splat(P::lane(t192, 1)), t222);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t238 = mul_add(t54, t206, t51);
-    let t239 = mul_add(t56, t206, t55);
-    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
-    let t240 = w(1.0) / t220;
-    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
-    let t241 = t219 + t229;
-    // second moment of payload and platform-side leg ends
-    let t242 = mul_add(t181, t9 * t9, t171 * (t18 * t18));
-    let t243 = mul_add(t181, t9 * t13, t171 * (t18 * t21));
-    let t244 = P::triple([P::lane(t201, 0), P::lane(t202, 0), P::lane(t203, 0)]);
-    let t245 = P::triple([P::lane(t201, 1), P::lane(t202, 1), P::lane(t203, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t246 = P::splat(P::lane(t97, 1)) * t223;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t247 = mul_sub(t50, P::splat(P::lane(t75, 1)), t227);
+    let t237 = P::splat(P::lane(t148, 0)) + t218;
+    let t238 = neg_mul_add(P::splat(P::lane(t89, 1)), t149, t219);
     // legs 1, 2, 3: actuator acceleration d''
-    let t248 = neg_mul_add(t110, mul_add(t211, t211, t208), t225);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t249 = mul_add(t224, t224, mul_add(t207, t207, t190 * t190));
+    let t239 = neg_mul_add(t110, mul_add(t206, t206, t201), t220);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t250 = t226 - mul_sub(P::splat(P::lane(t97, 0)), t198, t216);
-    let t251 = neg_mul_add(P::splat(P::lane(t97, 2)), t199, P::splat(P::lane(t115, 2)));
-    let t252 = t44 * P::splat(P::lane(t75, 1));
-    let t253 = mul_add(t12, P::splat(P::lane(t192, 0)), t236);
-    // second moment of payload and platform-side leg ends
-    let t254 = P::triple([P::lane(t201, 2), P::lane(t202, 2), P::lane(t203, 2)]);
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t255 = t175 - t230;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t256 = P::splat(P::lane(t152, 2)) + t232;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t257 = t9 * P::splat(P::lane(t182, 2));
+    let t240 = t221 - mul_sub(P::splat(P::lane(t97, 0)), t193, t210);
+    let t241 = neg_mul_add(P::splat(P::lane(t97, 2)), t194, P::splat(P::lane(t115, 2)));
+    let t242 = t40 * P::splat(P::lane(t71, 1));
+    let t243 = mul_add(t12, P::splat(P::lane(t187, 0)), t230);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t258 = P::splat(P::lane(t106, 0)) * t223;
-    let t259 = mul_add(P::splat(P::lane(t106, 1)), t239, P::splat(P::lane(t115, 1)));
-    let t260 = t56 * P::splat(P::lane(t75, 0));
-    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
-    let t261 = w(1.0) / t241;
-    // second moment of payload and platform-side leg ends
-    let t262 = t244 + t245 + t254;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t263 = t18 * P::splat(P::lane(t182, 1));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t264 = mul_sub(t39, P::splat(P::lane(t75, 0)), t252);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
-    let t265 = neg_mul_add(t170, t172, t131);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t266 = mul_add(t209, t256, mul_add(t189, t231, t180 * t221));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t267 = neg_mul_add(t39, t248, mul_add(t228, t233, t234));
-    let t268 = mul_add(P::splat(P::lane(t106, 2)), t198, t235) + t251;
-    let t269 = mul_add(t12, P::splat(P::lane(t192, 2)), t257);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t270 = mul_add(P::splat(P::lane(t104, 0)), t239, P::splat(P::lane(t115, 0)));
-    let t271 = t52 * P::splat(P::lane(t75, 2));
-    let t272 = mul_sub(t54, P::splat(P::lane(t75, 2)), t260);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t273 = t39 * mul_add(t13, P::splat(P::lane(t212, 1)), t237);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t274 = w(2.0) * t230;
-    let t275 = mul_sub(P::splat(P::lane(t104, 1)), t238, t246) + t259;
-    let t276 = P::splat(P::lane(t104, 2)) * t223;
-    let t277 = t18 * P::splat(P::lane(t182, 0));
-    let t278 = mul_add(t19, P::splat(P::lane(t192, 1)), t263);
-    // second moment of payload and platform-side leg ends
-    let t279 = mul_add(t181, t13 * t13, t171 * (t21 * t21));
-    let t280 = P::lane(t243, 1) + P::lane(t243, 0);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t281 = neg_mul_add(t44, t248, mul_add(t233, t247, t250));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t282 = mul_sub(t56, P::splat(P::lane(t75, 1)), t271);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t283 = neg_mul_add(t130, mul_add(t255, t255, t249), t266);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t284 = mul_add(t44, mul_add(t13, P::splat(P::lane(t212, 0)), t253), t273);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t285 = t270 - mul_sub(P::splat(P::lane(t97, 0)), t238, t258);
-    let t286 = neg_mul_add(P::splat(P::lane(t97, 2)), t239, P::splat(P::lane(t115, 2)));
-    let t287 = t54 * P::splat(P::lane(t75, 1));
-    let t288 = mul_add(t19, P::splat(P::lane(t192, 0)), t277);
-    // second moment of payload and platform-side leg ends
-    let t289 = P::triple([P::lane(t262, 1), P::lane(t242, 2), P::lane(t243, 2)]);
-    let t290 = P::triple([c(0.0), P::lane(t242, 1) + P::lane(t242, 0), t280]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t291 = t18 * P::splat(P::lane(t182, 2));
-    // legs 4, 5, 6: rod's inertial coupling between its ends
-    let t292 = neg_mul_add(t154, t187, t121);
-    // second moment of payload and platform-side leg ends
-    let t293 = t289 + t290;
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t294 = t240 * t265;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t295 = neg_mul_add(t50, t248, mul_add(t233, t264, t268));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t296 = mul_sub(t52, P::splat(P::lane(t75, 0)), t287);
+    let t244 = mul_add(t53, t213, t49);
+    let t245 = mul_add(t61, t213, t55);
     // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
-    let t297 = t240 * (t265 * t265);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t298 = mul_add(t50, mul_add(t13, P::splat(P::lane(t212, 2)), t269), t284);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t299 = neg_mul_add(t52, t283, mul_add(t272, t274, t275));
-    let t300 = mul_add(P::splat(P::lane(t106, 2)), t238, t276) + t286;
-    let t301 = mul_add(t19, P::splat(P::lane(t192, 2)), t291);
-    let t302 = t52 * mul_add(t21, P::splat(P::lane(t212, 1)), t278);
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t303 = neg_mul_add(t44, t294, t156);
-    let t304 = neg_mul_add(t39, t294, t147);
-    let t305 = neg_mul_add(t50, t294, t174);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t306 = t261 * t292;
-    // mass matrix in base coordinates
-    let t307 = t39 * t297;
-    let t308 = t50 * t297;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t309 = mul_add(t50, t295, mul_add(t44, t281, t39 * t267));
-    let t310 = mul_add(t264, t264, mul_add(t247, t247, t228 * t228));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t311 = neg_mul_add(t54, t283, mul_add(t274, t282, t285));
-    // constant and copied elements
-    let t312 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t313 = mul_sub(t33, t174, t37 * t147);
-    let t314 = mul_sub(t37, t156, t31 * t174);
-    let t315 = mul_sub(t31, t147, t33 * t156);
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t316 = mul_sub(t33, t50, t37 * t39);
-    let t317 = mul_sub(t37, t44, t31 * t50);
-    let t318 = mul_sub(t31, t39, t33 * t44);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t319 = mul_add(t54, mul_add(t21, P::splat(P::lane(t212, 0)), t288), t302);
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t320 = t169 - t312;
+    let t246 = w(1.0) / t225;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t247 = t224 + t235;
     // second moment of payload and platform-side leg ends
-    let t321 = P::triple([P::lane(t262, 2), P::lane(t293, 2), P::lane(t279, 2)]);
-    let t322 = P::triple([c(0.0), c(0.0), P::lane(t279, 1) + P::lane(t279, 0)]);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t323 = neg_mul_add(t54, t306, t189);
-    let t324 = neg_mul_add(t52, t306, t180);
-    let t325 = neg_mul_add(t56, t306, t209);
-    // mass matrix in base coordinates
-    let t326 = t220 * t304;
-    let t327 = t220 * t305;
-    // first moment of payload and platform-side leg ends
-    let t328 = mul_add(t12, t181, t19 * t171);
-    let t329 = mul_add(t9, t181, t18 * t171);
-    let t330 = mul_add(t13, t181, t21 * t171);
-    // constant and copied elements
-    let t331 =
-        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
-    let t332 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t333 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    let t248 = mul_add(t185, t9 * t9, t176 * (t18 * t18));
+    let t249 = mul_add(t185, t9 * t13, t176 * (t18 * t36));
+    let t250 = P::triple([P::lane(t203, 0), P::lane(t204, 0), P::lane(t205, 0)]);
+    let t251 = P::triple([P::lane(t203, 1), P::lane(t204, 1), P::lane(t205, 1)]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t334 = mul_sub(t200, t309, t265 * t298);
+    let t252 = t9 * P::splat(P::lane(t177, 2));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t335 = neg_mul_add(t56, t283, mul_add(t274, t296, t300));
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t336 = mul_sub(t38, t209, t48 * t180);
-    let t337 = mul_sub(t48, t189, t40 * t209);
-    let t338 = mul_sub(t40, t180, t38 * t189);
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t339 = neg_mul_add(t294, t316, t313);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t340 = mul_sub(t38, t56, t48 * t52);
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t341 = neg_mul_add(t294, t317, t314);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t342 = mul_sub(t48, t54, t40 * t56);
-    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t343 = neg_mul_add(t294, t318, t315);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t344 = mul_sub(t40, t52, t38 * t54);
+    let t253 = P::splat(P::lane(t97, 1)) * t232;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t254 = mul_add(t233, t233, mul_add(t215, t215, t198 * t198));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t255 = mul_sub(t34, P::splat(P::lane(t71, 0)), t242);
     // second moment of payload and platform-side leg ends
-    let t345 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t256 = P::triple([P::lane(t203, 2), P::lane(t204, 2), P::lane(t205, 2)]);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t257 = t181 - t236;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t258 = P::splat(P::lane(t148, 2)) + t238;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t259 = neg_mul_add(t34, t239, mul_add(t223, t227, t228));
+    let t260 = mul_add(P::splat(P::lane(t106, 2)), t193, t229) + t241;
+    let t261 = mul_add(t12, P::splat(P::lane(t187, 2)), t252);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t346 = mul_add(t56, mul_add(t21, P::splat(P::lane(t212, 2)), t301), t319);
-    // mass matrix in base coordinates
-    let t347 = mul_sub(t303, t220 * t303, t44 * (t44 * t297));
-    let t348 = t297 * t316;
-    let t349 = t297 * t317;
-    let t350 = t297 * t318;
-    let t351 = t241 * t324;
-    let t352 = t241 * t325;
-    // constant and copied elements
-    let t353 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    let t262 = P::splat(P::lane(t106, 0)) * t232;
+    let t263 = mul_add(P::splat(P::lane(t106, 1)), t245, P::splat(P::lane(t115, 1)));
+    let t264 = t61 * P::splat(P::lane(t71, 0));
     // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
-    let t354 = t261 * (t292 * t292);
+    let t265 = w(1.0) / t247;
     // second moment of payload and platform-side leg ends
-    let t355 = t345 + parameters.payload_inertia[2][2];
-    // constant and copied elements
-    let t356 =
-        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t357 =
-        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t266 = t250 + t251 + t256;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t358 = mul_add(t210, mul_add(t310, t331, t309), t334);
+    let t267 = t34 * mul_add(t13, P::splat(P::lane(t207, 1)), t231);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t359 = mul_add(t56, t335, mul_add(t54, t311, t52 * t299));
-    let t360 = mul_add(t296, t296, mul_add(t282, t282, t272 * t272));
+    let t268 = t18 * P::splat(P::lane(t177, 1));
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t269 = neg_mul_add(t175, t180, t137);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t270 = mul_add(t216, t258, mul_add(t197, t237, t184 * t226));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t271 = neg_mul_add(t40, t239, mul_add(t227, t234, t240));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t272 = mul_add(P::splat(P::lane(t104, 0)), t245, P::splat(P::lane(t115, 0)));
+    let t273 = t52 * P::splat(P::lane(t71, 2));
+    let t274 = mul_sub(t53, P::splat(P::lane(t71, 2)), t264);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t275 = mul_add(t40, mul_add(t13, P::splat(P::lane(t207, 0)), t243), t267);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t276 = w(2.0) * t236;
+    let t277 = mul_sub(P::splat(P::lane(t104, 1)), t244, t253) + t263;
+    let t278 = P::splat(P::lane(t104, 2)) * t232;
+    let t279 = t18 * P::splat(P::lane(t177, 0));
+    let t280 = mul_add(t19, P::splat(P::lane(t187, 1)), t268);
+    // second moment of payload and platform-side leg ends
+    let t281 = mul_add(t185, t13 * t13, t176 * (t36 * t36));
+    let t282 = P::lane(t249, 1) + P::lane(t249, 0);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t283 = mul_sub(t61, P::splat(P::lane(t71, 1)), t273);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t284 = neg_mul_add(t136, mul_add(t257, t257, t254), t270);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t285 = neg_mul_add(t46, t239, mul_add(t227, t255, t260));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t286 = t272 - mul_sub(P::splat(P::lane(t97, 0)), t244, t262);
+    let t287 = neg_mul_add(P::splat(P::lane(t97, 2)), t245, P::splat(P::lane(t115, 2)));
+    let t288 = t53 * P::splat(P::lane(t71, 1));
+    let t289 = mul_add(t19, P::splat(P::lane(t187, 0)), t279);
+    // second moment of payload and platform-side leg ends
+    let t290 = P::triple([P::lane(t266, 1), P::lane(t248, 2), P::lane(t249, 2)]);
+    let t291 = P::triple([c(0.0), P::lane(t248, 1) + P::lane(t248, 0), t282]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t292 = mul_add(t46, mul_add(t13, P::splat(P::lane(t207, 2)), t261), t275);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t293 = t18 * P::splat(P::lane(t177, 2));
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t294 = neg_mul_add(t164, t196, t127);
+    // second moment of payload and platform-side leg ends
+    let t295 = t290 + t291;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t296 = t246 * t269;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t297 = mul_sub(t52, P::splat(P::lane(t71, 0)), t288);
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t298 = t246 * (t269 * t269);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t299 = mul_add(t46, t285, mul_add(t40, t271, t34 * t259));
+    let t300 = mul_add(t255, t255, mul_add(t234, t234, t223 * t223));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t301 = neg_mul_add(t52, t284, mul_add(t274, t276, t277));
+    let t302 = mul_add(P::splat(P::lane(t106, 2)), t244, t278) + t287;
+    let t303 = mul_add(t19, P::splat(P::lane(t187, 2)), t293);
+    // constant and copied elements
+    let t304 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t305 = t52 * mul_add(t36, P::splat(P::lane(t207, 1)), t280);
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t306 = t163 - t304;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t307 = neg_mul_add(t40, t296, t152);
+    let t308 = neg_mul_add(t34, t296, t145);
+    let t309 = neg_mul_add(t46, t296, t167);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t310 = t265 * t294;
+    // mass matrix in base coordinates
+    let t311 = t34 * t298;
+    let t312 = t46 * t298;
+    // constant and copied elements
+    let t313 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t314 = neg_mul_add(t53, t284, mul_add(t276, t283, t286));
+    // constant and copied elements
+    let t315 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t316 = mul_sub(t32, t167, t37 * t145);
+    let t317 = mul_sub(t37, t152, t31 * t167);
+    let t318 = mul_sub(t31, t145, t32 * t152);
+    // constant and copied elements
+    let t319 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t320 = mul_sub(t32, t46, t34 * t37);
+    let t321 = mul_sub(t37, t40, t31 * t46);
+    let t322 = mul_sub(t31, t34, t32 * t40);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t323 = mul_sub(t202, t299, t269 * t292);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t324 = mul_add(t53, mul_add(t36, P::splat(P::lane(t207, 0)), t289), t305);
+    // second moment of payload and platform-side leg ends
+    let t325 = P::triple([P::lane(t266, 2), P::lane(t295, 2), P::lane(t281, 2)]);
+    let t326 = P::triple([c(0.0), c(0.0), P::lane(t281, 1) + P::lane(t281, 0)]);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t327 = neg_mul_add(t53, t310, t197);
+    let t328 = neg_mul_add(t52, t310, t184);
+    let t329 = neg_mul_add(t61, t310, t216);
+    // mass matrix in base coordinates
+    let t330 = t225 * t308;
+    let t331 = t225 * t309;
+    // first moment of payload and platform-side leg ends
+    let t332 = mul_add(t12, t185, t19 * t176);
+    let t333 = mul_add(t9, t185, t18 * t176);
+    let t334 = mul_add(t13, t185, t36 * t176);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t335 = neg_mul_add(t61, t284, mul_add(t276, t297, t302));
+    // constant and copied elements
+    let t336 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t337 = mul_sub(t39, t216, t50 * t184);
+    let t338 = mul_sub(t50, t197, t44 * t216);
+    let t339 = mul_sub(t44, t184, t39 * t197);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t340 = neg_mul_add(t296, t320, t316);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t341 = mul_sub(t39, t61, t50 * t52);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t342 = neg_mul_add(t296, t321, t317);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t343 = mul_sub(t50, t53, t44 * t61);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t344 = neg_mul_add(t296, t322, t318);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t345 = mul_sub(t44, t52, t39 * t53);
+    // second moment of payload and platform-side leg ends
+    let t346 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t347 = mul_add(t217, mul_add(t300, t313, t299), t323);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t348 = mul_add(t61, mul_add(t36, P::splat(P::lane(t207, 2)), t303), t324);
+    // mass matrix in base coordinates
+    let t349 = mul_sub(t307, t225 * t307, t40 * (t40 * t298));
+    let t350 = t298 * t320;
+    let t351 = t298 * t321;
+    let t352 = t298 * t322;
+    let t353 = t247 * t328;
+    let t354 = t247 * t329;
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t355 = t265 * (t294 * t294);
+    // second moment of payload and platform-side leg ends
+    let t356 = t346 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t357 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t358 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t359 = mul_add(t61, t335, mul_add(t53, t314, t52 * t301));
+    let t360 = mul_add(t297, t297, mul_add(t283, t283, t274 * t274));
     // constant and copied elements
     let t361 =
         P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
     // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t362 = neg_mul_add(t306, t340, t336);
-    let t363 = neg_mul_add(t306, t342, t337);
-    let t364 = neg_mul_add(t306, t344, t338);
+    let t362 = neg_mul_add(t310, t341, t337);
+    let t363 = neg_mul_add(t310, t343, t338);
+    let t364 = neg_mul_add(t310, t345, t339);
     // mass matrix in base coordinates
-    let t365 = t220 * t339;
-    let t366 = t220 * t341;
-    let t367 = t220 * t343;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t368 = t265 * t281;
-    let t369 = t265 * t267;
-    let t370 = t265 * t295;
+    let t365 = t225 * t340;
+    let t366 = t225 * t342;
+    let t367 = t225 * t344;
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t371 = t206 - t361;
-    // mass matrix in base coordinates
-    let t372 = mul_add(t324, t351, mul_sub(t304, t326, t39 * t307));
-    let t373 = mul_add(t325, t352, mul_sub(t305, t327, t50 * t308));
-    // second moment of payload and platform-side leg ends
-    let t374 = P::triple([P::lane(t262, 0), P::lane(t293, 1), P::lane(t321 + t322, 2)]);
-    // mass matrix in base coordinates
-    let t375 = t52 * t354;
-    let t376 = mul_add(t323, t351, mul_sub(t303, t326, t44 * t307));
-    let t377 = t56 * t354;
-    let t378 = mul_add(t323, t352, mul_sub(t303, t327, t44 * t308));
-    let t379 = mul_add(t324, t352, mul_sub(t304, t327, t39 * t308));
-    // first moment of payload and platform-side leg ends
-    let t380 = P::triple([P::lane(t328, 0), P::lane(t329, 0), P::lane(t330, 0)]);
-    let t381 = P::triple([P::lane(t328, 1), P::lane(t329, 1), P::lane(t330, 1)]);
-    // second moment of payload and platform-side leg ends
-    let t382 = P::triple([P::lane(t262, 1), P::lane(t293, 2), P::lane(t262, 2)]);
-    // constant and copied elements
-    let t383 =
-        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
-    let t384 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    let t385 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
-    // mass of payload and platform-side leg ends
-    let t386 = t171 + t181;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t387 = mul_sub(t219, t359, t292 * t346);
+    let t368 = t213 - t361;
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t388 = neg_mul_add(t191, t353, neg_mul_add(t320, t332, t333)) - t358;
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t389 = t33 * t370;
-    let t390 = t37 * t368;
-    let t391 = t31 * t369;
+    let t369 = neg_mul_add(t186, t336, neg_mul_add(t306, t315, t319)) - t347;
     // mass matrix in base coordinates
-    let t392 = t241 * t362;
-    let t393 = t241 * t363;
-    let t394 = t241 * t364;
-    let t395 = mul_sub(t54, t54 * t354, mul_add(t323, t241 * t323, t347));
-    let t396 = mul_sub(t52, t375, t372);
-    let t397 = mul_sub(t56, t377, t373);
+    let t370 = mul_add(t328, t353, mul_sub(t308, t330, t34 * t311));
+    let t371 = mul_add(t329, t354, mul_sub(t309, t331, t46 * t312));
+    // second moment of payload and platform-side leg ends
+    let t372 = P::triple([P::lane(t266, 0), P::lane(t295, 1), P::lane(t325 + t326, 2)]);
+    // mass matrix in base coordinates
+    let t373 = t52 * t355;
+    let t374 = mul_add(t327, t353, mul_sub(t307, t330, t40 * t311));
+    let t375 = t61 * t355;
+    let t376 = mul_add(t327, t354, mul_sub(t307, t331, t40 * t312));
+    let t377 = mul_add(t328, t354, mul_sub(t308, t331, t34 * t312));
     // first moment of payload and platform-side leg ends
-    let t398 = P::triple([P::lane(t328, 2), P::lane(t329, 2), P::lane(t330, 2)]);
+    let t378 = P::triple([P::lane(t332, 0), P::lane(t333, 0), P::lane(t334, 0)]);
+    let t379 = P::triple([P::lane(t332, 1), P::lane(t333, 1), P::lane(t334, 1)]);
+    // second moment of payload and platform-side leg ends
+    let t380 = P::triple([P::lane(t266, 1), P::lane(t295, 2), P::lane(t266, 2)]);
     // constant and copied elements
-    let t399 =
+    let t381 =
+        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    let t382 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    let t383 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // mass of payload and platform-side leg ends
+    let t384 = t176 + t185;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t385 = mul_sub(t224, t359, t294 * t348);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t386 = t269 * t271;
+    let t387 = t259 * t269;
+    let t388 = t269 * t285;
+    // mass matrix in base coordinates
+    let t389 = t247 * t362;
+    let t390 = t247 * t363;
+    let t391 = t247 * t364;
+    let t392 = mul_sub(t53, t53 * t355, mul_add(t327, t247 * t327, t349));
+    let t393 = mul_sub(t52, t373, t370);
+    let t394 = mul_sub(t61, t375, t371);
+    // first moment of payload and platform-side leg ends
+    let t395 = P::triple([P::lane(t332, 2), P::lane(t333, 2), P::lane(t334, 2)]);
+    // constant and copied elements
+    let t396 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t400 =
+    let t397 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
     // mass matrix in base coordinates
-    let t401 = mul_sub(t54, t375, t376);
-    let t402 = mul_sub(t54, t377, t378);
-    let t403 = mul_sub(t52, t377, t379);
+    let t398 = mul_sub(t53, t373, t374);
+    let t399 = mul_sub(t53, t375, t376);
+    let t400 = mul_sub(t52, t375, t377);
     // second moment of payload and platform-side leg ends
-    let t404 = mul_add(P::splat(t355), w(0.5), t374) - t400;
+    let t401 = mul_add(P::splat(t356), w(0.5), t372) - t397;
     // constant and copied elements
-    let t405 =
+    let t402 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    let t406 =
+    let t403 =
         P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
     // mass matrix in base coordinates
-    let t407 = mul_add(t324, t392, mul_sub(t304, t365, t39 * t348));
-    let t408 = mul_add(t324, t393, mul_sub(t304, t366, t39 * t349));
-    let t409 = mul_add(t324, t394, mul_sub(t304, t367, t39 * t350));
+    let t404 = mul_add(t328, t389, mul_sub(t308, t365, t34 * t350));
+    let t405 = mul_add(t328, t390, mul_sub(t308, t366, t34 * t351));
+    let t406 = mul_add(t328, t391, mul_sub(t308, t367, t34 * t352));
     // second moment of payload and platform-side leg ends
-    let t410 = mul_add(t356 * t357, P::splat(parameters.payload_mass), t382) - t405;
+    let t407 = mul_add(t357 * t358, P::splat(parameters.payload_mass), t380) - t402;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t411 = mul_add(t229, mul_add(t360, t383, t359), t387);
+    let t408 = mul_add(t235, mul_add(t360, t381, t359), t385);
     // mass matrix in base coordinates
-    let t412 = t340 * t354;
-    let t413 = t342 * t354;
-    let t414 = t344 * t354;
-    let t415 = mul_add(t323, t392, mul_sub(t303, t365, t44 * t348));
-    let t416 = mul_add(t323, t393, mul_sub(t303, t366, t44 * t349));
-    let t417 = mul_add(t323, t394, mul_sub(t303, t367, t44 * t350));
+    let t409 = t341 * t355;
+    let t410 = t343 * t355;
+    let t411 = t345 * t355;
+    let t412 = mul_add(t327, t389, mul_sub(t307, t365, t40 * t350));
+    let t413 = mul_add(t327, t390, mul_sub(t307, t366, t40 * t351));
+    let t414 = mul_add(t327, t391, mul_sub(t307, t367, t40 * t352));
     // first moment of payload and platform-side leg ends
-    let t418 = mul_add(P::splat(parameters.payload_mass), t399, t380 + t381 + t398);
+    let t415 = mul_add(P::splat(parameters.payload_mass), t396, t378 + t379 + t395);
     // second moment of payload and platform-side leg ends
-    let t419 = mul_add(P::splat(parameters.payload_mass), t399 * t399, t404);
+    let t416 = mul_add(P::splat(parameters.payload_mass), t396 * t396, t401);
     // wrench left at the trial acceleration
-    let t420 = mul_sub(t37, t369, mul_add(t313, t388, t389));
-    let t421 = mul_sub(t31, t370, mul_add(t314, t388, t390));
-    let t422 = mul_sub(t33, t368, mul_add(t315, t388, t391));
+    let t417 = neg_mul_add(t32, t388, mul_sub(t37, t387, t316 * t369));
+    let t418 = neg_mul_add(t37, t386, mul_sub(t31, t388, t317 * t369));
+    let t419 = neg_mul_add(t31, t387, mul_sub(t32, t386, t318 * t369));
     // mass matrix in base coordinates
-    let t423 = mul_sub(t52, t412, t407);
-    let t424 = mul_sub(t52, t413, t408);
-    let t425 = mul_sub(t52, t414, t409);
+    let t420 = mul_sub(t52, t409, t404);
+    let t421 = mul_sub(t52, t410, t405);
+    let t422 = mul_sub(t52, t411, t406);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t426 = neg_mul_add(t230, t406, neg_mul_add(t371, t384, t385)) - t411;
+    let t423 = neg_mul_add(t236, t403, neg_mul_add(t368, t382, t383)) - t408;
     // first moments by platform coordinate of the payload's inertia force
-    let t427 = t182 * P::splat(P::lane(t410, 0));
+    let t424 = t177 * P::splat(P::lane(t407, 0));
     // inertia less external wrench that the actuators must balance
-    let t428 = t1 * P::splat(external_wrench[1]);
+    let t425 = t1 * P::splat(external_wrench[1]);
     // mass matrix in base coordinates
-    let t429 = mul_sub(t54, t412, t415);
-    let t430 = mul_sub(t54, t413, t416);
-    let t431 = mul_sub(t54, t414, t417);
-    let t432 = P::triple([P::lane(t395, 0), P::lane(t396, 0), P::lane(t397, 0)]);
-    let t433 = P::triple([P::lane(t395, 1), P::lane(t396, 1), P::lane(t397, 1)]);
-    let t434 = mul_add(t325, t392, mul_sub(t305, t365, t50 * t348));
-    let t435 = mul_add(t325, t393, mul_sub(t305, t366, t50 * t349));
-    let t436 = mul_add(t325, t394, mul_sub(t305, t367, t50 * t350));
+    let t426 = mul_sub(t53, t409, t412);
+    let t427 = mul_sub(t53, t410, t413);
+    let t428 = mul_sub(t53, t411, t414);
+    let t429 = P::triple([P::lane(t392, 0), P::lane(t393, 0), P::lane(t394, 0)]);
+    let t430 = P::triple([P::lane(t392, 1), P::lane(t393, 1), P::lane(t394, 1)]);
+    let t431 = mul_add(t329, t389, mul_sub(t309, t365, t46 * t350));
+    let t432 = mul_add(t329, t390, mul_sub(t309, t366, t46 * t351));
+    let t433 = mul_add(t329, t391, mul_sub(t309, t367, t46 * t352));
     // mass of payload and platform-side leg ends
-    let t437 = P::lane(t386, 2) + (P::lane(t386, 1) + P::lane(t386, 0));
+    let t434 = P::lane(t384, 2) + (P::lane(t384, 1) + P::lane(t384, 0));
     // mass matrix in base coordinates
-    let t438 = P::triple([P::lane(t403, 0), P::lane(t402, 0), P::lane(t401, 0)]);
-    let t439 = P::triple([P::lane(t403, 1), P::lane(t402, 1), P::lane(t401, 1)]);
+    let t435 = P::triple([P::lane(t400, 0), P::lane(t399, 0), P::lane(t398, 0)]);
+    let t436 = P::triple([P::lane(t400, 1), P::lane(t399, 1), P::lane(t398, 1)]);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t440 = t292 * t311;
-    let t441 = t292 * t299;
-    let t442 = t292 * t335;
+    let t437 = t294 * t314;
+    let t438 = t294 * t301;
+    let t439 = t294 * t335;
     // first moments by platform coordinate of the payload's inertia force
-    let t443 = mul_add(t192, P::splat(P::lane(t419, 0)), t427);
+    let t440 = mul_add(t187, P::splat(P::lane(t416, 0)), t424);
     // inertia less external wrench that the actuators must balance
-    let t444 = mul_add(t2, P::splat(external_wrench[0]), t428);
+    let t441 = mul_add(t2, P::splat(external_wrench[0]), t425);
     // mass matrix in base coordinates
-    let t445 = P::triple([P::lane(t395, 2), P::lane(t396, 2), P::lane(t397, 2)]);
+    let t442 = P::triple([P::lane(t392, 2), P::lane(t393, 2), P::lane(t394, 2)]);
     // mass of payload and platform-side leg ends
-    let t446 = parameters.payload_mass + t437;
+    let t443 = parameters.payload_mass + t434;
     // mass matrix in base coordinates
-    let t447 = P::triple([P::lane(t403, 2), P::lane(t402, 2), P::lane(t401, 2)]);
-    let t448 = mul_sub(t56, t412, t434);
-    let t449 = mul_sub(t56, t413, t435);
-    let t450 = mul_sub(t56, t414, t436);
-    let t451 = t438 + t439 + t447;
-    let t452 = P::lane(t14, 2) * P::lane(t418, 1);
+    let t444 = P::triple([P::lane(t400, 2), P::lane(t399, 2), P::lane(t398, 2)]);
+    let t445 = mul_sub(t61, t409, t431);
+    let t446 = mul_sub(t61, t410, t432);
+    let t447 = mul_sub(t61, t411, t433);
+    let t448 = t435 + t436 + t444;
+    let t449 = P::lane(t14, 2) * P::lane(t415, 1);
     // wrench left at the trial acceleration
-    let t453 = mul_add(t189, t426, mul_add(t156, t388, t368));
-    let t454 = mul_add(t180, t426, mul_add(t147, t388, t369));
-    let t455 = mul_add(t209, t426, mul_add(t174, t388, t370));
-    let t456 = mul_add(t38, t442, mul_sub(t336, t426, t420));
-    let t457 = mul_add(t48, t440, mul_sub(t337, t426, t421));
-    let t458 = mul_add(t40, t441, mul_sub(t338, t426, t422));
+    let t450 = mul_add(t197, t423, mul_add(t152, t369, t386));
+    let t451 = mul_add(t184, t423, mul_add(t145, t369, t387));
+    let t452 = mul_add(t216, t423, mul_add(t167, t369, t388));
+    let t453 = mul_sub(t50, t438, mul_sub(t337, t423, t417));
+    let t454 = mul_sub(t44, t439, mul_sub(t338, t423, t418));
+    let t455 = mul_sub(t39, t437, mul_sub(t339, t423, t419));
     // mass matrix in base coordinates
-    let t459 = P::triple([P::lane(t423, 0), P::lane(t424, 0), P::lane(t425, 0)]);
-    let t460 = P::triple([P::lane(t423, 1), P::lane(t424, 1), P::lane(t425, 1)]);
-    let t461 = P::lane(t14, 0) * P::lane(t418, 1);
+    let t456 = P::triple([P::lane(t420, 0), P::lane(t421, 0), P::lane(t422, 0)]);
+    let t457 = P::triple([P::lane(t420, 1), P::lane(t421, 1), P::lane(t422, 1)]);
+    let t458 = P::lane(t14, 0) * P::lane(t415, 1);
     // first moments by platform coordinate of the payload's inertia force
-    let t462 = mul_add(t212, P::splat(P::lane(t410, 2)), t443);
+    let t459 = mul_add(t207, P::splat(P::lane(t407, 2)), t440);
     // inertia less external wrench that the actuators must balance
-    let t463 = mul_add(t5, P::splat(external_wrench[2]), t444);
+    let t460 = mul_add(t5, P::splat(external_wrench[2]), t441);
     // mass matrix in base coordinates
-    let t464 = P::splat(t446) - (t432 + t433 + t445);
+    let t461 = P::splat(t443) - (t429 + t430 + t442);
     // first moments by platform coordinate of the payload's inertia force
-    let t465 = t182 * P::splat(P::lane(t419, 1));
+    let t462 = t177 * P::splat(P::lane(t416, 1));
     // mass matrix in base coordinates
-    let t466 = P::triple([P::lane(t429, 0), P::lane(t430, 0), P::lane(t431, 0)]);
-    let t467 = P::triple([P::lane(t429, 1), P::lane(t430, 1), P::lane(t431, 1)]);
-    let t468 = mul_add(t362, t392, mul_sub(t339, t365, t316 * t348));
-    let t469 = mul_add(t363, t393, mul_sub(t341, t366, t317 * t349));
-    let t470 = mul_add(t364, t394, mul_sub(t343, t367, t318 * t350));
-    let t471 = P::mul_add(P::lane(t15, 2), P::lane(t418, 0), t452);
-    let t472 = P::lane(t14, 1) * P::lane(t418, 1);
-    let t473 = P::triple([P::lane(t423, 2), P::lane(t424, 2), P::lane(t425, 2)]);
-    let t474 = mul_add(t362, t393, mul_sub(t339, t366, t316 * t349));
-    let t475 = mul_add(t362, t394, mul_sub(t339, t367, t316 * t350));
-    let t476 = mul_add(t363, t394, mul_sub(t341, t367, t317 * t350));
-    let t477 = P::mul_add(P::lane(t15, 0), P::lane(t418, 0), t461);
+    let t463 = P::triple([P::lane(t426, 0), P::lane(t427, 0), P::lane(t428, 0)]);
+    let t464 = P::triple([P::lane(t426, 1), P::lane(t427, 1), P::lane(t428, 1)]);
+    let t465 = mul_add(t362, t389, mul_sub(t340, t365, t320 * t350));
+    let t466 = mul_add(t363, t390, mul_sub(t342, t366, t321 * t351));
+    let t467 = mul_add(t364, t391, mul_sub(t344, t367, t322 * t352));
+    let t468 = P::mul_add(P::lane(t15, 2), P::lane(t415, 0), t449);
+    let t469 = P::lane(t14, 1) * P::lane(t415, 1);
+    let t470 = P::triple([P::lane(t420, 2), P::lane(t421, 2), P::lane(t422, 2)]);
+    let t471 = mul_add(t362, t390, mul_sub(t340, t366, t320 * t351));
+    let t472 = mul_add(t362, t391, mul_sub(t340, t367, t320 * t352));
+    let t473 = mul_add(t363, t391, mul_sub(t342, t367, t321 * t352));
+    let t474 = P::mul_add(P::lane(t15, 0), P::lane(t415, 0), t458);
     // wrench left at the trial acceleration
-    let t478 = mul_add(t292, t311, t453);
-    let t479 = mul_add(t292, t299, t454);
-    let t480 = mul_add(t292, t335, t455);
-    let t481 = mul_sub(t48, t441, t456);
-    let t482 = mul_sub(t40, t442, t457);
-    let t483 = mul_sub(t38, t440, t458);
+    let t475 = mul_add(t294, t314, t450);
+    let t476 = mul_add(t294, t301, t451);
+    let t477 = mul_add(t294, t335, t452);
+    let t478 = neg_mul_add(t39, t439, t453);
+    let t479 = neg_mul_add(t50, t437, t454);
+    let t480 = neg_mul_add(t44, t438, t455);
     // mass matrix in base coordinates
-    let t484 = t459 + t460 + t473;
+    let t481 = t456 + t457 + t470;
     // first moments by platform coordinate of the payload's inertia force
-    let t485 = mul_add(t192, P::splat(P::lane(t410, 0)), t465);
+    let t482 = mul_add(t187, P::splat(P::lane(t407, 0)), t462);
     // mass matrix in base coordinates
-    let t486 = P::triple([P::lane(t429, 2), P::lane(t430, 2), P::lane(t431, 2)]);
-    let t487 = P::mul_add(P::lane(t15, 1), P::lane(t418, 0), t472);
-    let t488 = t466 + t467 + t486;
-    let t489 = P::triple([P::lane(t448, 0), P::lane(t449, 0), P::lane(t450, 0)]);
-    let t490 = P::triple([P::lane(t448, 1), P::lane(t449, 1), P::lane(t450, 1)]);
-    let t491 = mul_sub(t340, t412, t468);
-    let t492 = mul_sub(t342, t413, t469);
-    let t493 = mul_sub(t344, t414, t470);
-    let t494 = t14 * P::splat(P::lane(t410, 0));
-    let t495 = P::triple([P::lane(t451, 2), P::lane(t451, 2), P::lane(t451, 0)]);
-    let t496 = P::triple([P::lane(t451, 1), P::lane(t451, 0), P::lane(t451, 1)]);
-    let t497 = P::mul_add(P::lane(t17, 2), P::lane(t418, 2), t471);
-    let t498 = mul_sub(t340, t413, t474);
-    let t499 = mul_sub(t340, t414, t475);
-    let t500 = mul_sub(t342, t414, t476);
+    let t483 = P::triple([P::lane(t426, 2), P::lane(t427, 2), P::lane(t428, 2)]);
+    let t484 = P::mul_add(P::lane(t15, 1), P::lane(t415, 0), t469);
+    let t485 = t463 + t464 + t483;
+    let t486 = P::triple([P::lane(t445, 0), P::lane(t446, 0), P::lane(t447, 0)]);
+    let t487 = P::triple([P::lane(t445, 1), P::lane(t446, 1), P::lane(t447, 1)]);
+    let t488 = mul_sub(t341, t409, t465);
+    let t489 = mul_sub(t343, t410, t466);
+    let t490 = mul_sub(t345, t411, t467);
+    let t491 = t14 * P::splat(P::lane(t407, 0));
+    let t492 = P::triple([P::lane(t448, 2), P::lane(t448, 2), P::lane(t448, 0)]);
+    let t493 = P::triple([P::lane(t448, 1), P::lane(t448, 0), P::lane(t448, 1)]);
+    let t494 = P::mul_add(P::lane(t17, 2), P::lane(t415, 2), t468);
+    let t495 = mul_sub(t341, t410, t471);
+    let t496 = mul_sub(t341, t411, t472);
+    let t497 = mul_sub(t343, t411, t473);
     // acceleration that removes the residual wrench
-    let t501 = mul_add(t495, t496, t451 * t464);
+    let t498 = mul_add(t492, t493, t448 * t461);
     // mass matrix in base coordinates
-    let t502 = P::mul_add(P::lane(t17, 0), P::lane(t418, 2), t477);
+    let t499 = P::mul_add(P::lane(t17, 0), P::lane(t415, 2), t474);
     // first moments by platform coordinate of the payload's inertia force
-    let t503 = mul_add(t212, P::splat(P::lane(t410, 1)), t485);
+    let t500 = mul_add(t207, P::splat(P::lane(t407, 1)), t482);
     // inertia less external wrench that the actuators must balance
-    let t504 = P::triple([P::lane(t463, 1), P::lane(t463, 2), P::lane(t463, 0)]);
+    let t501 = P::triple([P::lane(t460, 1), P::lane(t460, 2), P::lane(t460, 0)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t505 = P::triple([P::lane(t462, 1), P::lane(t462, 2), P::lane(t462, 0)]);
+    let t502 = P::triple([P::lane(t459, 1), P::lane(t459, 2), P::lane(t459, 0)]);
     // mass matrix in base coordinates
-    let t506 = P::triple([P::lane(t448, 2), P::lane(t449, 2), P::lane(t450, 2)]);
-    let t507 = mul_add(t15, P::splat(P::lane(t419, 0)), t494);
-    let t508 = P::mul_add(P::lane(t17, 1), P::lane(t418, 2), t487);
+    let t503 = P::triple([P::lane(t445, 2), P::lane(t446, 2), P::lane(t447, 2)]);
+    let t504 = mul_add(t15, P::splat(P::lane(t416, 0)), t491);
+    let t505 = P::mul_add(P::lane(t17, 1), P::lane(t415, 2), t484);
     // first moments by platform coordinate of the payload's inertia force
-    let t509 = t182 * P::splat(P::lane(t410, 1));
+    let t506 = t177 * P::splat(P::lane(t407, 1));
     // inertia less external wrench that the actuators must balance
-    let t510 = neg_mul_add(P::splat(parameters.payload_com[0]), t504, t505);
+    let t507 = neg_mul_add(P::splat(parameters.payload_com[0]), t501, t502);
     // mass matrix in base coordinates
-    let t511 = t489 + t490 + t506;
-    let t512 = t14 * P::splat(P::lane(t419, 1));
-    let t513 = t497 + P::lane(t484, 0);
-    let t514 = P::triple([P::lane(t464, 1), P::lane(t464, 0), P::lane(t464, 1)]);
-    let t515 = P::triple([P::lane(t464, 2), P::lane(t464, 2), P::lane(t464, 0)]);
+    let t508 = t486 + t487 + t503;
+    let t509 = t14 * P::splat(P::lane(t416, 1));
+    let t510 = t494 + P::lane(t481, 0);
+    let t511 = P::triple([P::lane(t461, 1), P::lane(t461, 0), P::lane(t461, 1)]);
+    let t512 = P::triple([P::lane(t461, 2), P::lane(t461, 2), P::lane(t461, 0)]);
     // wrench left at the trial acceleration
-    let t516 = P::triple([P::lane(t478, 0), P::lane(t479, 0), P::lane(t480, 0)]);
-    let t517 = P::triple([P::lane(t478, 1), P::lane(t479, 1), P::lane(t480, 1)]);
-    let t518 = P::triple([P::lane(t481, 0), P::lane(t482, 0), P::lane(t483, 0)]);
-    let t519 = P::triple([P::lane(t481, 1), P::lane(t482, 1), P::lane(t483, 1)]);
+    let t513 = P::triple([P::lane(t475, 0), P::lane(t476, 0), P::lane(t477, 0)]);
+    let t514 = P::triple([P::lane(t475, 1), P::lane(t476, 1), P::lane(t477, 1)]);
+    let t515 = P::triple([P::lane(t478, 0), P::lane(t479, 0), P::lane(t480, 0)]);
+    let t516 = P::triple([P::lane(t478, 1), P::lane(t479, 1), P::lane(t480, 1)]);
     // acceleration that removes the residual wrench
-    let t520 = mul_sub(t514, t515, t451 * t451);
+    let t517 = mul_sub(t511, t512, t448 * t448);
     // first moments by platform coordinate of the payload's inertia force
-    let t521 = mul_add(t192, P::splat(P::lane(t410, 2)), t509);
+    let t518 = mul_add(t187, P::splat(P::lane(t407, 2)), t506);
     // mass matrix in base coordinates
-    let t522 = mul_add(t17, P::splat(P::lane(t410, 2)), t507);
-    let t523 = mul_add(t15, P::splat(P::lane(t410, 0)), t512);
-    let t524 = P::triple([P::lane(t491, 0), P::lane(t492, 0), P::lane(t493, 0)]);
-    let t525 = P::triple([P::lane(t491, 1), P::lane(t492, 1), P::lane(t493, 1)]);
-    let t526 = t14 * P::splat(P::lane(t410, 1));
-    let t527 = t497 - P::lane(t488, 1);
-    let t528 = P::triple([-t513, -P::lane(t484, 1), t502 - P::lane(t484, 2)]);
+    let t519 = mul_add(t17, P::splat(P::lane(t407, 2)), t504);
+    let t520 = mul_add(t15, P::splat(P::lane(t407, 0)), t509);
+    let t521 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
+    let t522 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
+    let t523 = t14 * P::splat(P::lane(t407, 1));
+    let t524 = t494 - P::lane(t485, 1);
+    let t525 = P::triple([-t510, -P::lane(t481, 1), t499 - P::lane(t481, 2)]);
     // wrench left at the trial acceleration
-    let t529 = P::triple([P::lane(t478, 2), P::lane(t479, 2), P::lane(t480, 2)]);
-    let t530 = P::triple([P::lane(t481, 2), P::lane(t482, 2), P::lane(t483, 2)]);
+    let t526 = P::triple([P::lane(t475, 2), P::lane(t476, 2), P::lane(t477, 2)]);
+    let t527 = P::triple([P::lane(t478, 2), P::lane(t479, 2), P::lane(t480, 2)]);
     // mass matrix in base coordinates
-    let t531 = P::triple([P::lane(t500, 0), P::lane(t499, 0), P::lane(t498, 0)]);
-    let t532 = P::triple([P::lane(t500, 1), P::lane(t499, 1), P::lane(t498, 1)]);
+    let t528 = P::triple([P::lane(t497, 0), P::lane(t496, 0), P::lane(t495, 0)]);
+    let t529 = P::triple([P::lane(t497, 1), P::lane(t496, 1), P::lane(t495, 1)]);
     // acceleration that removes the residual wrench
-    let t533 = P::splat(P::lane(t501, 2)) * t528;
+    let t530 = P::splat(P::lane(t498, 2)) * t525;
     // mass matrix in base coordinates
-    let t534 = -P::lane(t488, 0);
+    let t531 = -P::lane(t485, 0);
     // first moments by platform coordinate of the payload's inertia force
-    let t535 = mul_add(t212, P::splat(P::lane(t419, 2)), t521);
-    let t536 = P::triple([P::lane(t503, 1), P::lane(t503, 2), P::lane(t503, 0)]);
+    let t532 = mul_add(t207, P::splat(P::lane(t416, 2)), t518);
+    let t533 = P::triple([P::lane(t500, 1), P::lane(t500, 2), P::lane(t500, 0)]);
     // mass matrix in base coordinates
-    let t537 = P::triple([P::lane(t491, 2), P::lane(t492, 2), P::lane(t493, 2)]);
-    let t538 = mul_add(t17, P::splat(P::lane(t410, 1)), t523);
-    let t539 = mul_add(t15, P::splat(P::lane(t410, 2)), t526);
-    let t540 = P::triple([t534, t527, -(P::lane(t488, 2) + t508)]);
+    let t534 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
+    let t535 = mul_add(t17, P::splat(P::lane(t407, 1)), t520);
+    let t536 = mul_add(t15, P::splat(P::lane(t407, 2)), t523);
+    let t537 = P::triple([t531, t524, -(P::lane(t485, 2) + t505)]);
     // inertia less external wrench that the actuators must balance
-    let t541 = neg_mul_add(P::splat(parameters.payload_com[1]), t504, t536);
-    let t542 = P::triple([P::lane(t510, 1), P::lane(t510, 2), P::lane(t510, 0)]);
+    let t538 = neg_mul_add(P::splat(parameters.payload_com[1]), t501, t533);
+    let t539 = P::triple([P::lane(t507, 1), P::lane(t507, 2), P::lane(t507, 0)]);
     // mass matrix in base coordinates
-    let t543 = P::lane(t419, 2) + (P::lane(t419, 0) + P::lane(t419, 1));
-    let t544 = P::triple([P::lane(t500, 2), P::lane(t499, 2), P::lane(t498, 2)]);
+    let t540 = P::lane(t416, 2) + (P::lane(t416, 0) + P::lane(t416, 1));
+    let t541 = P::triple([P::lane(t497, 2), P::lane(t496, 2), P::lane(t495, 2)]);
     // acceleration that removes the residual wrench
-    let t545 = mul_add(P::splat(P::lane(t520, 0)), t540, t533);
+    let t542 = mul_add(P::splat(P::lane(t517, 0)), t537, t530);
     // mass matrix in base coordinates
-    let t546 = t508 - P::lane(t511, 0);
+    let t543 = t505 - P::lane(t508, 0);
     // wrench left at the trial acceleration
-    let t547 = neg_mul_add(t192, P::splat(P::lane(t418, 0)), t516 + t517 + t529);
+    let t544 = neg_mul_add(t187, P::splat(P::lane(t415, 0)), t513 + t514 + t526);
     // mass matrix in base coordinates
-    let t548 = -(t502 + P::lane(t511, 1));
-    let t549 = mul_add(t17, P::splat(P::lane(t419, 2)), t539);
+    let t545 = -(t499 + P::lane(t508, 1));
+    let t546 = mul_add(t17, P::splat(P::lane(t416, 2)), t536);
     // rotation of the platform seen from the base
-    let t550 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    let t547 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
     // mass matrix in base coordinates
-    let t551 = P::triple([P::lane(t522, 1), P::lane(t522, 0), P::lane(t522, 0)]);
-    let t552 = P::triple([t546, t548, -P::lane(t511, 2)]);
+    let t548 = P::triple([P::lane(t519, 1), P::lane(t519, 0), P::lane(t519, 0)]);
+    let t549 = P::triple([t543, t545, -P::lane(t508, 2)]);
     // rotation of the platform seen from the base
-    let t553 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t550 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // acceleration that removes the residual wrench
-    let t554 = mul_add(P::splat(P::lane(t501, 1)), t552, t545);
-    let t555 = t528 * P::splat(P::lane(t520, 1));
+    let t551 = mul_add(P::splat(P::lane(t498, 1)), t549, t542);
+    let t552 = t525 * P::splat(P::lane(t517, 1));
     // wrench left at the trial acceleration
-    let t556 = neg_mul_add(t182, P::splat(P::lane(t418, 1)), t547);
-    let t557 = mul_sub(t510, t553, mul_add(t140, t542, t518 + t519 + t530));
+    let t553 = neg_mul_add(t177, P::splat(P::lane(t415, 1)), t544);
+    let t554 = mul_sub(t507, t550, mul_add(t139, t539, t515 + t516 + t527));
     // acceleration that removes the residual wrench
-    let t558 = P::lane(t451, 2) * P::lane(t501, 2);
+    let t555 = P::lane(t448, 2) * P::lane(t498, 2);
     // mass matrix in base coordinates
-    let t559 = mul_add(t15, t522, t524 + t525 + t537 - P::splat(t543));
+    let t556 = mul_add(t15, t519, t521 + t522 + t534 - P::splat(t540));
     // first moments by platform coordinate of the payload's inertia force
-    let t560 = P::triple([P::lane(t535, 1), P::lane(t535, 2), P::lane(t535, 0)]);
+    let t557 = P::triple([P::lane(t532, 1), P::lane(t532, 2), P::lane(t532, 0)]);
     // rotation of the platform seen from the base
-    let t561 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    let t558 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
     // mass matrix in base coordinates
-    let t562 = P::triple([P::lane(t538, 1), P::lane(t538, 0), P::lane(t538, 0)]);
+    let t559 = P::triple([P::lane(t535, 1), P::lane(t535, 0), P::lane(t535, 0)]);
     // acceleration that removes the residual wrench
-    let t563 = mul_add(P::splat(P::lane(t501, 2)), t540, t555);
+    let t560 = mul_add(P::splat(P::lane(t498, 2)), t537, t552);
     // inertia less external wrench that the actuators must balance
-    let t564 = neg_mul_add(P::splat(parameters.payload_com[2]), t504, t560);
-    let t565 = P::triple([P::lane(t541, 1), P::lane(t541, 2), P::lane(t541, 0)]);
+    let t561 = neg_mul_add(P::splat(parameters.payload_com[2]), t501, t557);
+    let t562 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
     // mass matrix in base coordinates
-    let t566 = mul_add(t561, t562, mul_add(t550, t551, t531 + t532 + t544));
+    let t563 = mul_add(t558, t559, mul_add(t547, t548, t528 + t529 + t541));
     // acceleration that removes the residual wrench
-    let t567 = t528 * P::splat(P::lane(t501, 0));
-    let t568 = P::mul_sub(P::lane(t464, 0), P::lane(t520, 0), t558);
+    let t564 = t525 * P::splat(P::lane(t498, 0));
+    let t565 = P::mul_sub(P::lane(t461, 0), P::lane(t517, 0), t555);
     // rotation of the platform seen from the base
-    let t569 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    let t566 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
     // acceleration that removes the residual wrench
-    let t570 = mul_add(t552, P::splat(P::lane(t501, 0)), t563);
+    let t567 = mul_add(t549, P::splat(P::lane(t498, 0)), t560);
     // mass matrix in base coordinates
-    let t571 = P::triple([P::lane(t549, 1), P::lane(t549, 0), P::lane(t549, 0)]);
+    let t568 = P::triple([P::lane(t546, 1), P::lane(t546, 0), P::lane(t546, 0)]);
     // acceleration that removes the residual wrench
-    let t572 = mul_add(t540, P::splat(P::lane(t501, 1)), t567);
+    let t569 = mul_add(t537, P::splat(P::lane(t498, 1)), t564);
     // rotation of the platform seen from the base
-    let t573 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t570 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // mass matrix in base coordinates
-    let t574 = mul_add(t569, t571, t566);
+    let t571 = mul_add(t566, t568, t563);
     // acceleration that removes the residual wrench
-    let t575 = P::neg_mul_add(P::lane(t451, 1), P::lane(t501, 1), t568);
+    let t572 = P::neg_mul_add(P::lane(t448, 1), P::lane(t498, 1), t565);
     // mass matrix in base coordinates
-    let t576 = P::triple([t527, t534, t534]);
+    let t573 = P::triple([t524, t531, t531]);
     // acceleration that removes the residual wrench
-    let t577 = P::triple([P::lane(t554, 2), P::lane(t554, 2), P::lane(t554, 1)]);
+    let t574 = P::triple([P::lane(t551, 2), P::lane(t551, 2), P::lane(t551, 1)]);
     // wrench left at the trial acceleration
-    let t578 = t463 + neg_mul_add(t212, P::splat(P::lane(t418, 2)), t556);
-    let t579 = mul_add(t541, t573, neg_mul_add(t134, t565, t557));
+    let t575 = t460 + neg_mul_add(t207, P::splat(P::lane(t415, 2)), t553);
+    let t576 = mul_add(t538, t570, neg_mul_add(t130, t562, t554));
     // mass matrix in base coordinates
-    let t580 = mul_add(t17, t549, mul_add(t14, t538, t559));
+    let t577 = mul_add(t17, t546, mul_add(t14, t535, t556));
     // acceleration that removes the residual wrench
-    let t581 = mul_add(t552, P::splat(P::lane(t520, 2)), t572);
+    let t578 = mul_add(t549, P::splat(P::lane(t517, 2)), t569);
     // inertia less external wrench that the actuators must balance
-    let t582 = P::triple([P::lane(t564, 1), P::lane(t564, 2), P::lane(t564, 0)]);
+    let t579 = P::triple([P::lane(t561, 1), P::lane(t561, 2), P::lane(t561, 0)]);
     // acceleration that removes the residual wrench
-    let t583 = mul_add(t574, P::splat(t575), t576 * t577);
+    let t580 = mul_add(t571, P::splat(t572), t573 * t574);
     // mass matrix in base coordinates
-    let t584 = P::triple([P::lane(t484, 1), t513, t513]);
+    let t581 = P::triple([P::lane(t481, 1), t510, t510]);
     // acceleration that removes the residual wrench
-    let t585 = P::triple([P::lane(t570, 2), P::lane(t570, 2), P::lane(t570, 1)]);
+    let t582 = P::triple([P::lane(t567, 2), P::lane(t567, 2), P::lane(t567, 1)]);
     // rotation of the platform seen from the base
-    let t586 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    let t583 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // wrench left at the trial acceleration
-    let t587 = P::triple([P::lane(t578, 1), P::lane(t578, 2), P::lane(t578, 0)]);
+    let t584 = P::triple([P::lane(t575, 1), P::lane(t575, 2), P::lane(t575, 0)]);
     // acceleration that removes the residual wrench
-    let t588 = P::triple([P::lane(t501, 2), P::lane(t501, 0), P::lane(t501, 1)]);
+    let t585 = P::triple([P::lane(t498, 2), P::lane(t498, 0), P::lane(t498, 1)]);
     // wrench left at the trial acceleration
-    let t589 = mul_add(t564, t586, neg_mul_add(t155, t582, t579));
+    let t586 = mul_add(t561, t583, neg_mul_add(t151, t579, t576));
     // acceleration that removes the residual wrench
-    let t590 = mul_add(t528, t570, mul_add(P::splat(t575), t580, t540 * t554));
+    let t587 = mul_add(t525, t567, mul_add(P::splat(t572), t577, t537 * t551));
     // mass matrix in base coordinates
-    let t591 = P::triple([t548, t546, t546]);
+    let t588 = P::triple([t545, t543, t543]);
     // acceleration that removes the residual wrench
-    let t592 = P::triple([P::lane(t581, 2), P::lane(t581, 2), P::lane(t581, 1)]);
+    let t589 = P::triple([P::lane(t578, 2), P::lane(t578, 2), P::lane(t578, 1)]);
     // wrench left at the trial acceleration
-    let t593 = P::triple([P::lane(t578, 2), P::lane(t578, 0), P::lane(t578, 1)]);
+    let t590 = P::triple([P::lane(t575, 2), P::lane(t575, 0), P::lane(t575, 1)]);
     // acceleration that removes the residual wrench
-    let t594 = P::triple([P::lane(t501, 1), P::lane(t501, 2), P::lane(t501, 0)]);
-    let t595 = mul_add(t591, t592, neg_mul_add(t584, t585, t583));
+    let t591 = P::triple([P::lane(t498, 1), P::lane(t498, 2), P::lane(t498, 0)]);
+    let t592 = mul_add(t588, t589, neg_mul_add(t581, t582, t580));
     // wrench left at the trial acceleration
-    let t596 = mul_add(t2, P::splat(external_wrench[3]), t589);
+    let t593 = mul_add(t2, P::splat(external_wrench[3]), t586);
     // acceleration that removes the residual wrench
-    let t597 = mul_add(t552, t581, t590);
-    let t598 = mul_add(t593, t594, mul_add(t520, t578, t587 * t588));
+    let t594 = mul_add(t549, t578, t587);
+    let t595 = mul_add(t590, t591, mul_add(t517, t575, t584 * t585));
     // wrench left at the trial acceleration
-    let t599 = mul_add(t1, P::splat(external_wrench[4]), t596);
+    let t596 = mul_add(t1, P::splat(external_wrench[4]), t593);
     // acceleration that removes the residual wrench
-    let t600 = P::triple([P::lane(t595, 1), P::lane(t595, 0), P::lane(t595, 1)]);
-    let t601 = P::triple([P::lane(t595, 2), P::lane(t595, 2), P::lane(t595, 0)]);
+    let t597 = P::triple([P::lane(t592, 1), P::lane(t592, 0), P::lane(t592, 1)]);
+    let t598 = P::triple([P::lane(t592, 2), P::lane(t592, 2), P::lane(t592, 0)]);
     // wrench left at the trial acceleration
-    let t602 = mul_add(t5, P::splat(external_wrench[5]), t599);
+    let t599 = mul_add(t5, P::splat(external_wrench[5]), t596);
     // acceleration that removes the residual wrench
-    let t603 = mul_sub(t600, t601, t595 * t597);
-    let t604 = P::triple([P::lane(t597, 1), P::lane(t597, 0), P::lane(t597, 1)]);
-    let t605 = mul_sub(P::splat(t575), t602, t540 * P::splat(P::lane(t598, 0)));
-    let t606 = P::triple([P::lane(t597, 2), P::lane(t597, 2), P::lane(t597, 0)]);
-    let t607 = mul_sub(t604, t606, t595 * t595);
-    let t608 = P::triple([P::lane(t554, 0), P::lane(t570, 0), P::lane(t581, 0)]);
-    let t609 = P::triple([P::lane(t554, 1), P::lane(t570, 1), P::lane(t581, 1)]);
-    let t610 = neg_mul_add(t528, P::splat(P::lane(t598, 1)), t605);
-    let t611 = P::triple([P::lane(t554, 2), P::lane(t570, 2), P::lane(t581, 2)]);
-    let t612 = P::lane(t595, 2) * P::lane(t603, 2);
-    let t613 = P::triple([P::lane(t603, 2), P::lane(t603, 0), P::lane(t603, 1)]);
-    let t614 = P::triple([P::lane(t603, 1), P::lane(t603, 2), P::lane(t603, 0)]);
+    let t600 = mul_sub(t597, t598, t592 * t594);
+    let t601 = P::triple([P::lane(t594, 1), P::lane(t594, 0), P::lane(t594, 1)]);
+    let t602 = mul_sub(P::splat(t572), t599, t537 * P::splat(P::lane(t595, 0)));
+    let t603 = P::triple([P::lane(t594, 2), P::lane(t594, 2), P::lane(t594, 0)]);
+    let t604 = mul_sub(t601, t603, t592 * t592);
+    let t605 = P::triple([P::lane(t551, 0), P::lane(t567, 0), P::lane(t578, 0)]);
+    let t606 = P::triple([P::lane(t551, 1), P::lane(t567, 1), P::lane(t578, 1)]);
+    let t607 = neg_mul_add(t525, P::splat(P::lane(t595, 1)), t602);
+    let t608 = P::triple([P::lane(t551, 2), P::lane(t567, 2), P::lane(t578, 2)]);
+    let t609 = P::lane(t592, 2) * P::lane(t600, 2);
+    let t610 = P::triple([P::lane(t600, 2), P::lane(t600, 0), P::lane(t600, 1)]);
+    let t611 = P::triple([P::lane(t600, 1), P::lane(t600, 2), P::lane(t600, 0)]);
     // constant and copied elements
-    let t615 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    let t616 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t612 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t613 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // acceleration that removes the residual wrench
-    let t617 = P::mul_add(P::lane(t597, 0), P::lane(t607, 0), t612);
-    let t618 = neg_mul_add(t552, P::splat(P::lane(t598, 2)), t610);
+    let t614 = P::mul_add(P::lane(t594, 0), P::lane(t604, 0), t609);
+    let t615 = neg_mul_add(t549, P::splat(P::lane(t595, 2)), t607);
     // constant and copied elements
-    let t619 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
-    let t620 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t616 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
+    let t617 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // acceleration that removes the residual wrench
-    let t621 = c(1.0) / P::mul_add(P::lane(t595, 1), P::lane(t603, 1), t617);
-    let t622 = P::triple([P::lane(t618, 1), P::lane(t618, 2), P::lane(t618, 0)]);
-    let t623 = P::triple([P::lane(t618, 2), P::lane(t618, 0), P::lane(t618, 1)]);
-    let t624 = mul_add(t614, t623, mul_add(t607, t618, t613 * t622));
-    let t625 = P::splat(t621) * t624;
-    let t626 = mul_add(t608, P::splat(P::lane(t625, 0)), t598);
+    let t618 = c(1.0) / P::mul_add(P::lane(t592, 1), P::lane(t600, 1), t614);
+    let t619 = P::triple([P::lane(t615, 1), P::lane(t615, 2), P::lane(t615, 0)]);
+    let t620 = P::triple([P::lane(t615, 2), P::lane(t615, 0), P::lane(t615, 1)]);
+    let t621 = mul_add(t611, t620, mul_add(t604, t615, t610 * t619));
+    let t622 = P::splat(t618) * t621;
+    let t623 = mul_add(t605, P::splat(P::lane(t622, 0)), t595);
     // platform acceleration v_p'
-    let t627 = t615 * P::splat(P::lane(t625, 1));
+    let t624 = t612 * P::splat(P::lane(t622, 1));
     // acceleration that removes the residual wrench
-    let t628 = mul_add(t609, P::splat(P::lane(t625, 1)), t626);
+    let t625 = mul_add(t606, P::splat(P::lane(t622, 1)), t623);
     // platform acceleration v_p'
-    let t629 = mul_add(t616, P::splat(P::lane(t625, 0)), t627);
+    let t626 = mul_add(t613, P::splat(P::lane(t622, 0)), t624);
     // acceleration that removes the residual wrench
-    let t630 = mul_add(t611, P::splat(P::lane(t625, 2)), t628);
+    let t627 = mul_add(t608, P::splat(P::lane(t622, 2)), t625);
     // platform acceleration v_p'
-    let t631 = mul_add(t620, P::splat(P::lane(t625, 2)), t629);
+    let t628 = mul_add(t617, P::splat(P::lane(t622, 2)), t626);
     // acceleration that removes the residual wrench
-    let t632 = P::splat(c(1.0) / t575) * t630;
+    let t629 = P::splat(c(1.0) / t572) * t627;
     // platform acceleration v_p'
-    let t633 = t615 * P::splat(P::lane(t632, 1));
-    let t634 = mul_add(t616, P::splat(P::lane(t632, 0)), t633);
-    let t635 = mul_add(t620, P::splat(P::lane(t632, 2)), t619) + t634;
-    forward_dynamics[0] = P::lane(t635, 0);
-    forward_dynamics[1] = P::lane(t635, 1);
-    forward_dynamics[2] = P::lane(t635, 2);
-    forward_dynamics[3] = -P::lane(t631, 0);
-    forward_dynamics[4] = -P::lane(t631, 1);
-    forward_dynamics[5] = -P::lane(t631, 2);
+    let t630 = t612 * P::splat(P::lane(t629, 1));
+    let t631 = mul_add(t613, P::splat(P::lane(t629, 0)), t630);
+    let t632 = mul_add(t617, P::splat(P::lane(t629, 2)), t616) + t631;
+    forward_dynamics[0] = P::lane(t632, 0);
+    forward_dynamics[1] = P::lane(t632, 1);
+    forward_dynamics[2] = P::lane(t632, 2);
+    forward_dynamics[3] = -P::lane(t628, 0);
+    forward_dynamics[4] = -P::lane(t628, 1);
+    forward_dynamics[5] = -P::lane(t628, 2);
 }

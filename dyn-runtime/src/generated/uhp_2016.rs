@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
+// graph     uhp.json, sha256 0399b6f8b8367dab7d7d20b36d70f33c0006136fb5624574d2be953de4e83b7b
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -16,7 +16,7 @@
 // generalised_forces              3531        1542
 // jacobian_dp                      579         180
 // jacobian_db                      597         180
-// mass_matrix_p                   1475         517
+// mass_matrix_p                   1523         490
 // mass_matrix_b                   2718         784
 // coriolis_matrices               5047        1791
 // stiffness_matrices              1266         594
@@ -26,7 +26,7 @@
 // equation_of_motion              7338        2722
 // inverse_dynamics                2160         819
 // actuator_geometry                591         210
-// control                         3146        1317
+// control                         3194        1305
 // passive_inverse_dynamics        2808        1071
 // base_reaction                   2412         852
 // forward_dynamics                3003        1046
@@ -6972,339 +6972,311 @@ pub fn mass_matrix_p<T: Scalar>(
     let t74 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t73);
     let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t75);
-    // leg 1: gradient of the actuator length
-    let t77 = neg_mul_add(base_rotation[0][0], t59, base_rotation[0][2]);
-    let t78 = mul_add(base_rotation[0][1], t60, t77);
-    let t79 = neg_mul_add(base_rotation[1][0], t59, base_rotation[1][2]);
-    let t80 = mul_add(base_rotation[1][1], t60, t79);
-    let t81 = neg_mul_add(base_rotation[2][0], t59, base_rotation[2][2]);
-    let t82 = mul_add(base_rotation[2][1], t60, t81);
     // leg 2: platform joint from the platform origin
-    let t83 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t71);
-    let t84 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t73);
-    let t85 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t75);
-    // leg 2: gradient of the actuator length
-    let t86 = neg_mul_add(base_rotation[0][0], t61, base_rotation[0][2]);
-    let t87 = mul_sub(base_rotation[0][1], t62, t86);
-    let t88 = neg_mul_add(base_rotation[1][0], t61, base_rotation[1][2]);
-    let t89 = mul_sub(base_rotation[1][1], t62, t88);
-    let t90 = neg_mul_add(base_rotation[2][0], t61, base_rotation[2][2]);
-    let t91 = mul_sub(base_rotation[2][1], t62, t90);
+    let t77 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t71);
+    let t78 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t73);
+    let t79 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t75);
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][1] * c(0.1159110991546882);
-    let t93 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t92);
-    let t94 = platform_rotation[1][1] * c(0.1159110991546882);
-    let t95 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t94);
-    let t96 = platform_rotation[2][1] * c(0.1159110991546882);
-    let t97 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t96);
-    // leg 3: gradient of the actuator length
-    let t98 = neg_mul_add(base_rotation[0][0], t63, base_rotation[0][2]);
-    let t99 = mul_sub(base_rotation[0][1], t64, t98);
-    let t100 = neg_mul_add(base_rotation[1][0], t63, base_rotation[1][2]);
-    let t101 = mul_sub(base_rotation[1][1], t64, t100);
-    let t102 = neg_mul_add(base_rotation[2][0], t63, base_rotation[2][2]);
-    let t103 = mul_sub(base_rotation[2][1], t64, t102);
+    let t80 = platform_rotation[0][1] * c(0.1159110991546882);
+    let t81 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t80);
+    let t82 = platform_rotation[1][1] * c(0.1159110991546882);
+    let t83 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t82);
+    let t84 = platform_rotation[2][1] * c(0.1159110991546882);
+    let t85 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t84);
     // leg 4: platform joint from the platform origin
-    let t104 = platform_rotation[0][1] * c(0.08485281374238571);
-    let t105 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t104);
-    let t106 = platform_rotation[1][1] * c(0.08485281374238571);
-    let t107 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t106);
-    let t108 = platform_rotation[2][1] * c(0.08485281374238571);
-    let t109 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t108);
-    // leg 4: gradient of the actuator length
-    let t110 = neg_mul_add(base_rotation[0][0], t65, base_rotation[0][2]);
-    let t111 = mul_sub(base_rotation[0][1], t66, t110);
-    let t112 = neg_mul_add(base_rotation[1][0], t65, base_rotation[1][2]);
-    let t113 = mul_sub(base_rotation[1][1], t66, t112);
-    let t114 = neg_mul_add(base_rotation[2][0], t65, base_rotation[2][2]);
-    let t115 = mul_sub(base_rotation[2][1], t66, t114);
+    let t86 = platform_rotation[0][1] * c(0.08485281374238571);
+    let t87 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t86);
+    let t88 = platform_rotation[1][1] * c(0.08485281374238571);
+    let t89 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t88);
+    let t90 = platform_rotation[2][1] * c(0.08485281374238571);
+    let t91 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t90);
     // leg 5: platform joint from the platform origin
-    let t116 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t104);
-    let t117 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t106);
-    let t118 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t108);
-    // leg 5: gradient of the actuator length
-    let t119 = neg_mul_add(base_rotation[0][0], t67, base_rotation[0][2]);
-    let t120 = mul_add(base_rotation[0][1], t68, t119);
-    let t121 = neg_mul_add(base_rotation[1][0], t67, base_rotation[1][2]);
-    let t122 = mul_add(base_rotation[1][1], t68, t121);
-    let t123 = neg_mul_add(base_rotation[2][0], t67, base_rotation[2][2]);
-    let t124 = mul_add(base_rotation[2][1], t68, t123);
+    let t92 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t86);
+    let t93 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t88);
+    let t94 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t90);
     // leg 6: platform joint from the platform origin
-    let t125 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t92);
-    let t126 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t94);
-    let t127 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t96);
-    // leg 6: gradient of the actuator length
-    let t128 = neg_mul_add(base_rotation[0][0], t69, base_rotation[0][2]);
-    let t129 = mul_add(base_rotation[0][1], t70, t128);
-    let t130 = neg_mul_add(base_rotation[1][0], t69, base_rotation[1][2]);
-    let t131 = mul_add(base_rotation[1][1], t70, t130);
-    let t132 = neg_mul_add(base_rotation[2][0], t69, base_rotation[2][2]);
-    let t133 = mul_add(base_rotation[2][1], t70, t132);
+    let t95 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t80);
+    let t96 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t82);
+    let t97 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t84);
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t134 = base_rotation[0][2] * c(0.17066666666666666);
-    let t135 = mul_add(t78, c(0.4761666666666667), t134);
-    let t136 = t78 * t135;
-    let t137 = c(2.0) * t136;
-    let t138 = base_rotation[1][2] * c(0.17066666666666666);
-    let t139 = mul_add(t80, c(0.4761666666666667), t138);
-    let t140 = mul_add(t78, t139, t80 * t135);
-    let t141 = base_rotation[2][2] * c(0.17066666666666666);
-    let t142 = mul_add(t82, c(0.4761666666666667), t141);
-    let t143 = mul_add(t78, t142, t82 * t135);
-    let t144 = t80 * t139;
-    let t145 = c(2.0) * t144;
-    let t146 = mul_add(t80, t142, t82 * t139);
-    let t147 = t82 * t142;
-    let t148 = c(2.0) * t147;
+    let t98 = base_rotation[0][2] * c(1.1792089604480225);
+    let t99 = base_rotation[0][2] * c(0.03058499591646249);
+    let t100 = base_rotation[0][2] * t99;
+    let t101 = mul_sub(base_rotation[0][0], t59, t98);
+    let t102 = mul_sub(base_rotation[0][1], t60, t101);
+    let t103 = c(0.9523333333333334) * t102;
+    let t104 = mul_sub(t102, t103, t100);
+    let t105 = base_rotation[1][2] * c(1.1792089604480225);
+    let t106 = base_rotation[1][2] * t99;
+    let t107 = mul_sub(base_rotation[1][0], t59, t105);
+    let t108 = mul_sub(base_rotation[1][1], t60, t107);
+    let t109 = mul_sub(t103, t108, t106);
+    let t110 = base_rotation[2][2] * c(1.1792089604480225);
+    let t111 = base_rotation[2][2] * t99;
+    let t112 = mul_sub(base_rotation[2][0], t59, t110);
+    let t113 = mul_sub(base_rotation[2][1], t60, t112);
+    let t114 = mul_sub(t103, t113, t111);
+    let t115 = base_rotation[1][2] * c(0.03058499591646249);
+    let t116 = base_rotation[1][2] * t115;
+    let t117 = c(0.9523333333333334) * t108;
+    let t118 = mul_sub(t108, t117, t116);
+    let t119 = base_rotation[2][2] * t115;
+    let t120 = mul_sub(t113, t117, t119);
+    let t121 = base_rotation[2][2] * (base_rotation[2][2] * c(0.03058499591646249));
+    let t122 = mul_sub(t113, c(0.9523333333333334) * t113, t121);
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t149 = neg_mul_add(t87, c(0.4761666666666667), t134);
-    let t150 = t87 * t149;
-    let t151 = c(2.0) * t150;
-    let t152 = neg_mul_add(t89, c(0.4761666666666667), t138);
-    let t153 = mul_add(t87, t152, t89 * t149);
-    let t154 = neg_mul_add(t91, c(0.4761666666666667), t141);
-    let t155 = mul_add(t87, t154, t91 * t149);
-    let t156 = t89 * t152;
-    let t157 = c(2.0) * t156;
-    let t158 = mul_add(t89, t154, t91 * t152);
-    let t159 = t91 * t154;
-    let t160 = c(2.0) * t159;
+    let t123 = mul_sub(base_rotation[0][0], t61, t98);
+    let t124 = mul_add(base_rotation[0][1], t62, t123);
+    let t125 = c(0.9523333333333334) * t124;
+    let t126 = neg_mul_add(t124, t125, t100);
+    let t127 = mul_sub(base_rotation[1][0], t61, t105);
+    let t128 = mul_add(base_rotation[1][1], t62, t127);
+    let t129 = neg_mul_add(t125, t128, t106);
+    let t130 = mul_sub(base_rotation[2][0], t61, t110);
+    let t131 = mul_add(base_rotation[2][1], t62, t130);
+    let t132 = neg_mul_add(t125, t131, t111);
+    let t133 = c(0.9523333333333334) * t128;
+    let t134 = neg_mul_add(t128, t133, t116);
+    let t135 = neg_mul_add(t131, t133, t119);
+    let t136 = neg_mul_add(t131, c(0.9523333333333334) * t131, t121);
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t161 = neg_mul_add(t99, c(0.4761666666666667), t134);
-    let t162 = t99 * t161;
-    let t163 = c(2.0) * t162;
-    let t164 = neg_mul_add(t101, c(0.4761666666666667), t138);
-    let t165 = mul_add(t99, t164, t101 * t161);
-    let t166 = neg_mul_add(t103, c(0.4761666666666667), t141);
-    let t167 = mul_add(t99, t166, t103 * t161);
-    let t168 = t101 * t164;
-    let t169 = c(2.0) * t168;
-    let t170 = mul_add(t101, t166, t103 * t164);
-    let t171 = t103 * t166;
-    let t172 = c(2.0) * t171;
+    let t137 = mul_sub(base_rotation[0][0], t63, t98);
+    let t138 = mul_add(base_rotation[0][1], t64, t137);
+    let t139 = c(0.9523333333333334) * t138;
+    let t140 = neg_mul_add(t138, t139, t100);
+    let t141 = mul_sub(base_rotation[1][0], t63, t105);
+    let t142 = mul_add(base_rotation[1][1], t64, t141);
+    let t143 = neg_mul_add(t139, t142, t106);
+    let t144 = mul_sub(base_rotation[2][0], t63, t110);
+    let t145 = mul_add(base_rotation[2][1], t64, t144);
+    let t146 = neg_mul_add(t139, t145, t111);
+    let t147 = c(0.9523333333333334) * t142;
+    let t148 = neg_mul_add(t142, t147, t116);
+    let t149 = neg_mul_add(t145, t147, t119);
+    let t150 = neg_mul_add(t145, c(0.9523333333333334) * t145, t121);
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t173 = neg_mul_add(t111, c(0.4761666666666667), t134);
-    let t174 = t111 * t173;
-    let t175 = c(2.0) * t174;
-    let t176 = neg_mul_add(t113, c(0.4761666666666667), t138);
-    let t177 = mul_add(t111, t176, t113 * t173);
-    let t178 = neg_mul_add(t115, c(0.4761666666666667), t141);
-    let t179 = mul_add(t111, t178, t115 * t173);
-    let t180 = t113 * t176;
-    let t181 = c(2.0) * t180;
-    let t182 = mul_add(t113, t178, t115 * t176);
-    let t183 = t115 * t178;
-    let t184 = c(2.0) * t183;
+    let t151 = mul_sub(base_rotation[0][0], t65, t98);
+    let t152 = mul_add(base_rotation[0][1], t66, t151);
+    let t153 = c(0.9523333333333334) * t152;
+    let t154 = neg_mul_add(t152, t153, t100);
+    let t155 = mul_sub(base_rotation[1][0], t65, t105);
+    let t156 = mul_add(base_rotation[1][1], t66, t155);
+    let t157 = neg_mul_add(t153, t156, t106);
+    let t158 = mul_sub(base_rotation[2][0], t65, t110);
+    let t159 = mul_add(base_rotation[2][1], t66, t158);
+    let t160 = neg_mul_add(t153, t159, t111);
+    let t161 = c(0.9523333333333334) * t156;
+    let t162 = neg_mul_add(t156, t161, t116);
+    let t163 = neg_mul_add(t159, t161, t119);
+    let t164 = neg_mul_add(t159, c(0.9523333333333334) * t159, t121);
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t185 = mul_add(t120, c(0.4761666666666667), t134);
-    let t186 = t120 * t185;
-    let t187 = c(2.0) * t186;
-    let t188 = mul_add(t122, c(0.4761666666666667), t138);
-    let t189 = mul_add(t120, t188, t122 * t185);
-    let t190 = mul_add(t124, c(0.4761666666666667), t141);
-    let t191 = mul_add(t120, t190, t124 * t185);
-    let t192 = t122 * t188;
-    let t193 = c(2.0) * t192;
-    let t194 = mul_add(t122, t190, t124 * t188);
-    let t195 = t124 * t190;
-    let t196 = c(2.0) * t195;
+    let t165 = mul_sub(base_rotation[0][0], t67, t98);
+    let t166 = mul_sub(base_rotation[0][1], t68, t165);
+    let t167 = c(0.9523333333333334) * t166;
+    let t168 = neg_mul_add(t166, t167, t100);
+    let t169 = mul_sub(base_rotation[1][0], t67, t105);
+    let t170 = mul_sub(base_rotation[1][1], t68, t169);
+    let t171 = neg_mul_add(t167, t170, t106);
+    let t172 = mul_sub(base_rotation[2][0], t67, t110);
+    let t173 = mul_sub(base_rotation[2][1], t68, t172);
+    let t174 = neg_mul_add(t167, t173, t111);
+    let t175 = c(0.9523333333333334) * t170;
+    let t176 = neg_mul_add(t170, t175, t116);
+    let t177 = neg_mul_add(t173, t175, t119);
+    let t178 = neg_mul_add(t173, c(0.9523333333333334) * t173, t121);
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t197 = mul_add(t129, c(0.4761666666666667), t134);
-    let t198 = t129 * t197;
-    let t199 = c(2.0) * t198;
-    let t200 = mul_add(t131, c(0.4761666666666667), t138);
-    let t201 = mul_add(t129, t200, t131 * t197);
-    let t202 = mul_add(t133, c(0.4761666666666667), t141);
-    let t203 = mul_add(t129, t202, t133 * t197);
-    let t204 = t131 * t200;
-    let t205 = c(2.0) * t204;
-    let t206 = mul_add(t131, t202, t133 * t200);
-    let t207 = t133 * t202;
-    let t208 = c(2.0) * t207;
+    let t179 = mul_sub(base_rotation[0][0], t69, t98);
+    let t180 = mul_sub(base_rotation[0][1], t70, t179);
+    let t181 = c(0.9523333333333334) * t180;
+    let t182 = neg_mul_add(t180, t181, t100);
+    let t183 = mul_sub(base_rotation[1][0], t69, t105);
+    let t184 = mul_sub(base_rotation[1][1], t70, t183);
+    let t185 = neg_mul_add(t181, t184, t106);
+    let t186 = mul_sub(base_rotation[2][0], t69, t110);
+    let t187 = mul_sub(base_rotation[2][1], t70, t186);
+    let t188 = neg_mul_add(t181, t187, t111);
+    let t189 = c(0.9523333333333334) * t184;
+    let t190 = neg_mul_add(t184, t189, t116);
+    let t191 = neg_mul_add(t187, t189, t119);
+    let t192 = neg_mul_add(t187, c(0.9523333333333334) * t187, t121);
     // mass matrix of the legs
-    let t209 = mul_sub(t72, t143, t76 * t137);
-    let t210 = mul_sub(t83, t155, t85 * t151);
-    let t211 = mul_sub(t93, t167, t97 * t163);
-    let t212 = mul_sub(t105, t179, t109 * t175);
-    let t213 = mul_sub(t116, t191, t118 * t187);
-    let t214 = mul_sub(t125, t203, t127 * t199);
-    let t215 = mul_sub(t74, t137, t72 * t140);
-    let t216 = mul_sub(t84, t151, t83 * t153);
-    let t217 = mul_sub(t95, t163, t93 * t165);
-    let t218 = mul_sub(t107, t175, t105 * t177);
-    let t219 = mul_sub(t117, t187, t116 * t189);
-    let t220 = mul_sub(t126, t199, t125 * t201);
-    let t221 = mul_sub(t76, t145, t74 * t146);
-    let t222 = mul_sub(t85, t157, t84 * t158);
-    let t223 = mul_sub(t97, t169, t95 * t170);
-    let t224 = mul_sub(t109, t181, t107 * t182);
-    let t225 = mul_sub(t118, t193, t117 * t194);
-    let t226 = mul_sub(t127, t205, t126 * t206);
-    let t227 = t72 * t146;
-    let t228 = mul_sub(t76, t140, t227);
-    let t229 = t83 * t158;
-    let t230 = mul_sub(t85, t153, t229);
-    let t231 = t93 * t170;
-    let t232 = mul_sub(t97, t165, t231);
-    let t233 = t105 * t182;
-    let t234 = mul_sub(t109, t177, t233);
-    let t235 = t116 * t194;
-    let t236 = mul_sub(t118, t189, t235);
-    let t237 = t125 * t206;
-    let t238 = mul_sub(t127, t201, t237);
-    let t239 = mul_sub(t74, t140, t72 * t145);
-    let t240 = mul_sub(t84, t153, t83 * t157);
-    let t241 = mul_sub(t95, t165, t93 * t169);
-    let t242 = mul_sub(t107, t177, t105 * t181);
-    let t243 = mul_sub(t117, t189, t116 * t193);
-    let t244 = mul_sub(t126, t201, t125 * t205);
-    let t245 = mul_sub(t76, t146, t74 * t148);
-    let t246 = mul_sub(t85, t158, t84 * t160);
-    let t247 = mul_sub(t97, t170, t95 * t172);
-    let t248 = mul_sub(t109, t182, t107 * t184);
-    let t249 = mul_sub(t118, t194, t117 * t196);
-    let t250 = mul_sub(t127, t206, t126 * t208);
-    let t251 = mul_sub(t72, t148, t76 * t143);
-    let t252 = mul_sub(t83, t160, t85 * t155);
-    let t253 = mul_sub(t93, t172, t97 * t167);
-    let t254 = mul_sub(t105, t184, t109 * t179);
-    let t255 = mul_sub(t116, t196, t118 * t191);
-    let t256 = mul_sub(t125, t208, t127 * t203);
-    let t257 = mul_sub(t74, t143, t227);
-    let t258 = mul_sub(t84, t155, t229);
-    let t259 = mul_sub(t95, t167, t231);
-    let t260 = mul_sub(t107, t179, t233);
-    let t261 = mul_sub(t117, t191, t235);
-    let t262 = mul_sub(t126, t203, t237);
-    let t263 = t74 * t251;
-    let t264 = t74 * t257;
-    let t265 = t76 * t215;
-    let t266 = t201 + (t189 - (t177 + (t165 - (t140 - t153))));
-    mass_matrix_p[0][1] = t266;
-    mass_matrix_p[1][0] = t266;
-    let t267 = t203 + (t191 - (t179 + (t167 - (t143 - t155))));
-    mass_matrix_p[0][2] = t267;
-    mass_matrix_p[2][0] = t267;
-    let t268 = mul_sub(t85, t153, mul_sub(t76, t140, t74 * t143));
-    let t269 = mul_add(t97, t165, mul_sub(t84, t155, t268));
-    let t270 = mul_sub(t109, t177, mul_sub(t95, t167, t269));
-    let t271 = mul_add(t118, t189, mul_sub(t107, t179, t270));
-    let t272 = mul_sub(t127, t201, mul_sub(t117, t191, t271));
-    let t273 = neg_mul_add(t126, t203, t272);
-    mass_matrix_p[0][3] = t273;
-    mass_matrix_p[3][0] = t273;
-    let t274 = t206 + (t194 - (t182 + (t170 - (t146 - t158))));
-    mass_matrix_p[1][2] = t274;
-    mass_matrix_p[2][1] = t274;
-    let t275 = t234 + (t232 + (t228 - t230)) - t236 - t238;
-    mass_matrix_p[1][4] = t275;
-    mass_matrix_p[4][1] = t275;
-    let t276 = t262 + (t261 - (t260 + (t259 + (t257 - t258))));
-    mass_matrix_p[2][5] = t276;
-    mass_matrix_p[5][2] = t276;
+    let t193 = mul_sub(t72, t114, t76 * t104);
+    let t194 = mul_sub(t77, t132, t79 * t126);
+    let t195 = mul_sub(t81, t146, t85 * t140);
+    let t196 = mul_sub(t87, t160, t91 * t154);
+    let t197 = mul_sub(t92, t174, t94 * t168);
+    let t198 = mul_sub(t95, t188, t97 * t182);
+    let t199 = mul_sub(t74, t104, t72 * t109);
+    let t200 = mul_sub(t78, t126, t77 * t129);
+    let t201 = mul_sub(t83, t140, t81 * t143);
+    let t202 = mul_sub(t89, t154, t87 * t157);
+    let t203 = mul_sub(t93, t168, t92 * t171);
+    let t204 = mul_sub(t96, t182, t95 * t185);
+    let t205 = mul_sub(t76, t118, t74 * t120);
+    let t206 = mul_sub(t79, t134, t78 * t135);
+    let t207 = mul_sub(t85, t148, t83 * t149);
+    let t208 = mul_sub(t91, t162, t89 * t163);
+    let t209 = mul_sub(t94, t176, t93 * t177);
+    let t210 = mul_sub(t97, t190, t96 * t191);
+    let t211 = t72 * t120;
+    let t212 = mul_sub(t76, t109, t211);
+    let t213 = t77 * t135;
+    let t214 = mul_sub(t79, t129, t213);
+    let t215 = t81 * t149;
+    let t216 = mul_sub(t85, t143, t215);
+    let t217 = t87 * t163;
+    let t218 = mul_sub(t91, t157, t217);
+    let t219 = t92 * t177;
+    let t220 = mul_sub(t94, t171, t219);
+    let t221 = t95 * t191;
+    let t222 = mul_sub(t97, t185, t221);
+    let t223 = mul_sub(t74, t109, t72 * t118);
+    let t224 = mul_sub(t78, t129, t77 * t134);
+    let t225 = mul_sub(t83, t143, t81 * t148);
+    let t226 = mul_sub(t89, t157, t87 * t162);
+    let t227 = mul_sub(t93, t171, t92 * t176);
+    let t228 = mul_sub(t96, t185, t95 * t190);
+    let t229 = mul_sub(t76, t120, t74 * t122);
+    let t230 = mul_sub(t79, t135, t78 * t136);
+    let t231 = mul_sub(t85, t149, t83 * t150);
+    let t232 = mul_sub(t91, t163, t89 * t164);
+    let t233 = mul_sub(t94, t177, t93 * t178);
+    let t234 = mul_sub(t97, t191, t96 * t192);
+    let t235 = mul_sub(t72, t122, t76 * t114);
+    let t236 = mul_sub(t77, t136, t79 * t132);
+    let t237 = mul_sub(t81, t150, t85 * t146);
+    let t238 = mul_sub(t87, t164, t91 * t160);
+    let t239 = mul_sub(t92, t178, t94 * t174);
+    let t240 = mul_sub(t95, t192, t97 * t188);
+    let t241 = mul_sub(t74, t114, t211);
+    let t242 = mul_sub(t78, t132, t213);
+    let t243 = mul_sub(t83, t146, t215);
+    let t244 = mul_sub(t89, t160, t217);
+    let t245 = mul_sub(t93, t174, t219);
+    let t246 = mul_sub(t96, t188, t221);
+    let t247 = t74 * t235;
+    let t248 = t74 * t241;
+    let t249 = t76 * t199;
+    let t250 = t109 - t129 - t143 - t157 - t171 - t185;
+    mass_matrix_p[0][1] = t250;
+    mass_matrix_p[1][0] = t250;
+    let t251 = t114 - t132 - t146 - t160 - t174 - t188;
+    mass_matrix_p[0][2] = t251;
+    mass_matrix_p[2][0] = t251;
+    let t252 = mul_sub(t79, t129, mul_sub(t76, t109, t74 * t114));
+    let t253 = mul_add(t85, t143, mul_sub(t78, t132, t252));
+    let t254 = mul_sub(t91, t157, mul_sub(t83, t146, t253));
+    let t255 = mul_sub(t94, t171, mul_sub(t89, t160, t254));
+    let t256 = mul_sub(t97, t185, mul_sub(t93, t174, t255));
+    let t257 = mul_sub(t96, t188, t256);
+    mass_matrix_p[0][3] = t257;
+    mass_matrix_p[3][0] = t257;
+    let t258 = t120 - t135 - t149 - t163 - t177 - t191;
+    mass_matrix_p[1][2] = t258;
+    mass_matrix_p[2][1] = t258;
+    let t259 = t222 + (t220 + (t218 + (t216 + (t212 - t214))));
+    mass_matrix_p[1][4] = t259;
+    mass_matrix_p[4][1] = t259;
+    let t260 = t242 - t241 - t243 - t244 - t245 - t246;
+    mass_matrix_p[2][5] = t260;
+    mass_matrix_p[5][2] = t260;
     // mass matrix M_p of the platform
-    let t277 = mul_sub(c(2.0), t150, mul_add(c(2.0), t136, c(8.139999999999999)));
-    let t278 = mul_add(c(2.0), t174, mul_add(c(2.0), t162, t277));
-    mass_matrix_p[0][0] = mul_add(c(2.0), t198, mul_sub(c(2.0), t186, t278));
-    let t279 = t211 - (t210 - neg_mul_add(platform_rotation[2][2], c(0.188852), t209));
-    let t280 = t214 + (t213 - (t212 + t279));
-    mass_matrix_p[0][4] = t280;
-    mass_matrix_p[4][0] = t280;
-    let t281 = t217 - (t216 - mul_add(platform_rotation[1][2], c(0.188852), t215));
-    let t282 = t220 + (t219 - (t218 + t281));
-    mass_matrix_p[0][5] = t282;
-    mass_matrix_p[5][0] = t282;
-    let t283 = mul_sub(c(2.0), t156, mul_add(c(2.0), t144, c(8.139999999999999)));
-    let t284 = mul_add(c(2.0), t180, mul_add(c(2.0), t168, t283));
-    mass_matrix_p[1][1] = mul_add(c(2.0), t204, mul_sub(c(2.0), t192, t284));
-    let t285 = t223 - (t222 - mul_add(platform_rotation[2][2], c(0.188852), t221));
-    let t286 = t226 + (t225 - (t224 + t285));
-    mass_matrix_p[1][3] = t286;
-    mass_matrix_p[3][1] = t286;
-    let t287 = t241 - (t240 - neg_mul_add(platform_rotation[0][2], c(0.188852), t239));
-    let t288 = t244 + (t243 - (t242 + t287));
-    mass_matrix_p[1][5] = t288;
-    mass_matrix_p[5][1] = t288;
-    let t289 = mul_sub(c(2.0), t159, mul_add(c(2.0), t147, c(8.139999999999999)));
-    let t290 = mul_add(c(2.0), t183, mul_add(c(2.0), t171, t289));
-    mass_matrix_p[2][2] = mul_add(c(2.0), t207, mul_sub(c(2.0), t195, t290));
-    let t291 = t247 - (t246 - neg_mul_add(platform_rotation[1][2], c(0.188852), t245));
-    let t292 = t250 + (t249 - (t248 + t291));
-    mass_matrix_p[2][3] = t292;
-    mass_matrix_p[3][2] = t292;
-    let t293 = t253 - (t252 - mul_add(platform_rotation[0][2], c(0.188852), t251));
-    let t294 = t256 + (t255 - (t254 + t293));
-    mass_matrix_p[2][4] = t294;
-    mass_matrix_p[4][2] = t294;
-    let t295 = platform_rotation[0][2] * c(0.013354412);
-    let t296 = platform_rotation[0][1] * c(0.032245600000000006);
-    let t297 = platform_rotation[0][0] * c(0.032245600000000006);
-    let t298 = mul_sub(t74, t245, mul_add(t76, t221, c(0.07784561200000001)));
-    let t299 = mul_sub(t84, t246, mul_add(t85, t222, t298));
-    let t300 = mul_sub(t95, t247, mul_sub(t97, t223, t299));
-    let t301 = mul_sub(t107, t248, mul_sub(t109, t224, t300));
-    let t302 = mul_sub(t117, t249, mul_add(t118, t225, t301));
-    let t303 = neg_mul_add(t126, t250, mul_sub(t127, t226, t302));
-    let t304 = neg_mul_add(platform_rotation[0][0], t297, t303);
-    let t305 = neg_mul_add(platform_rotation[0][1], t296, t304);
-    mass_matrix_p[3][3] = neg_mul_add(platform_rotation[0][2], t295, t305);
-    let t306 = mul_sub(t85, t230, mul_add(t76, t228, t263));
-    let t307 = mul_add(t97, t232, mul_add(t84, t252, t306));
-    let t308 = mul_add(t109, t234, mul_add(t95, t253, t307));
-    let t309 = neg_mul_add(t118, t236, mul_add(t107, t254, t308));
-    let t310 = neg_mul_add(t127, t238, neg_mul_add(t117, t255, t309));
-    let t311 = neg_mul_add(t126, t256, t310);
-    let t312 = neg_mul_add(platform_rotation[1][0], t297, t311);
-    let t313 = neg_mul_add(platform_rotation[1][1], t296, t312);
-    let t314 = neg_mul_add(platform_rotation[1][2], t295, t313);
-    mass_matrix_p[3][4] = t314;
-    mass_matrix_p[4][3] = t314;
-    let t315 = mul_sub(t85, t240, mul_sub(t76, t239, t264));
-    let t316 = mul_sub(t97, t241, mul_sub(t84, t258, t315));
-    let t317 = mul_sub(t109, t242, mul_sub(t95, t259, t316));
-    let t318 = mul_add(t118, t243, mul_sub(t107, t260, t317));
-    let t319 = mul_sub(t127, t244, mul_sub(t117, t261, t318));
-    let t320 = neg_mul_add(t126, t262, t319);
-    let t321 = neg_mul_add(platform_rotation[2][0], t297, t320);
-    let t322 = neg_mul_add(platform_rotation[2][1], t296, t321);
-    let t323 = neg_mul_add(platform_rotation[2][2], t295, t322);
-    mass_matrix_p[3][5] = t323;
-    mass_matrix_p[5][3] = t323;
-    let t324 = platform_rotation[1][2] * c(0.013354412);
-    let t325 = platform_rotation[1][1] * c(0.032245600000000006);
-    let t326 = platform_rotation[1][0] * c(0.032245600000000006);
-    let t327 = mul_sub(t76, t209, mul_add(t72, t251, c(0.07784561200000001)));
-    let t328 = mul_sub(t85, t210, mul_add(t83, t252, t327));
-    let t329 = mul_sub(t97, t211, mul_sub(t93, t253, t328));
-    let t330 = mul_sub(t109, t212, mul_sub(t105, t254, t329));
-    let t331 = mul_sub(t118, t213, mul_add(t116, t255, t330));
-    let t332 = neg_mul_add(t127, t214, mul_sub(t125, t256, t331));
-    let t333 = neg_mul_add(platform_rotation[1][0], t326, t332);
-    let t334 = neg_mul_add(platform_rotation[1][1], t325, t333);
-    mass_matrix_p[4][4] = neg_mul_add(platform_rotation[1][2], t324, t334);
-    let t335 = mul_sub(t83, t258, mul_sub(t72, t257, t265));
-    let t336 = mul_sub(t93, t259, mul_sub(t85, t216, t335));
-    let t337 = mul_sub(t105, t260, mul_sub(t97, t217, t336));
-    let t338 = mul_add(t116, t261, mul_sub(t109, t218, t337));
-    let t339 = mul_sub(t125, t262, mul_sub(t118, t219, t338));
-    let t340 = neg_mul_add(t127, t220, t339);
-    let t341 = neg_mul_add(platform_rotation[2][0], t326, t340);
-    let t342 = neg_mul_add(platform_rotation[2][1], t325, t341);
-    let t343 = neg_mul_add(platform_rotation[2][2], t324, t342);
-    mass_matrix_p[4][5] = t343;
-    mass_matrix_p[5][4] = t343;
-    let t344 = platform_rotation[2][2] * c(-0.013354412);
-    let t345 = platform_rotation[2][1] * c(0.032245600000000006);
-    let t346 = platform_rotation[2][0] * c(0.032245600000000006);
-    let t347 = mul_sub(t72, t239, mul_add(t74, t215, c(0.07784561200000001)));
-    let t348 = mul_sub(t83, t240, mul_add(t84, t216, t347));
-    let t349 = mul_sub(t93, t241, mul_sub(t95, t217, t348));
-    let t350 = mul_sub(t105, t242, mul_sub(t107, t218, t349));
-    let t351 = mul_sub(t116, t243, mul_add(t117, t219, t350));
-    let t352 = mul_sub(t125, t244, mul_sub(t126, t220, t351));
-    let t353 = mul_add(platform_rotation[2][0], t346, t352);
-    let t354 = mul_add(platform_rotation[2][1], t345, t353);
-    mass_matrix_p[5][5] = mul_sub(platform_rotation[2][2], t344, t354);
+    let t261 = c(8.139999999999999) + t104 - t126 - t140 - t154 - t168;
+    mass_matrix_p[0][0] = t261 - t182;
+    let t262 = t194 - neg_mul_add(platform_rotation[2][2], c(0.188852), t193) - t195;
+    let t263 = t262 - t196 - t197 - t198;
+    mass_matrix_p[0][4] = t263;
+    mass_matrix_p[4][0] = t263;
+    let t264 = t200 - mul_add(platform_rotation[1][2], c(0.188852), t199) - t201;
+    let t265 = t264 - t202 - t203 - t204;
+    mass_matrix_p[0][5] = t265;
+    mass_matrix_p[5][0] = t265;
+    let t266 = c(8.139999999999999) + t118 - t134 - t148 - t162 - t176;
+    mass_matrix_p[1][1] = t266 - t190;
+    let t267 = t206 - mul_add(platform_rotation[2][2], c(0.188852), t205) - t207;
+    let t268 = t267 - t208 - t209 - t210;
+    mass_matrix_p[1][3] = t268;
+    mass_matrix_p[3][1] = t268;
+    let t269 = t224 - neg_mul_add(platform_rotation[0][2], c(0.188852), t223) - t225;
+    let t270 = t269 - t226 - t227 - t228;
+    mass_matrix_p[1][5] = t270;
+    mass_matrix_p[5][1] = t270;
+    let t271 = c(8.139999999999999) + t122 - t136 - t150 - t164 - t178;
+    mass_matrix_p[2][2] = t271 - t192;
+    let t272 = t230 - neg_mul_add(platform_rotation[1][2], c(0.188852), t229) - t231;
+    let t273 = t272 - t232 - t233 - t234;
+    mass_matrix_p[2][3] = t273;
+    mass_matrix_p[3][2] = t273;
+    let t274 = t236 - mul_add(platform_rotation[0][2], c(0.188852), t235) - t237;
+    let t275 = t274 - t238 - t239 - t240;
+    mass_matrix_p[2][4] = t275;
+    mass_matrix_p[4][2] = t275;
+    let t276 = platform_rotation[0][2] * c(0.013354412);
+    let t277 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t278 = platform_rotation[0][0] * c(0.032245600000000006);
+    let t279 = mul_sub(t74, t229, mul_add(t76, t205, c(0.07784561200000001)));
+    let t280 = mul_sub(t78, t230, mul_add(t79, t206, t279));
+    let t281 = mul_sub(t83, t231, mul_sub(t85, t207, t280));
+    let t282 = mul_sub(t89, t232, mul_sub(t91, t208, t281));
+    let t283 = mul_sub(t93, t233, mul_sub(t94, t209, t282));
+    let t284 = mul_sub(t96, t234, mul_sub(t97, t210, t283));
+    let t285 = neg_mul_add(platform_rotation[0][0], t278, t284);
+    let t286 = neg_mul_add(platform_rotation[0][1], t277, t285);
+    mass_matrix_p[3][3] = neg_mul_add(platform_rotation[0][2], t276, t286);
+    let t287 = mul_sub(t79, t214, mul_add(t76, t212, t247));
+    let t288 = mul_add(t85, t216, mul_add(t78, t236, t287));
+    let t289 = mul_add(t91, t218, mul_add(t83, t237, t288));
+    let t290 = mul_add(t94, t220, mul_add(t89, t238, t289));
+    let t291 = mul_add(t97, t222, mul_add(t93, t239, t290));
+    let t292 = neg_mul_add(platform_rotation[1][0], t278, mul_add(t96, t240, t291));
+    let t293 = neg_mul_add(platform_rotation[1][1], t277, t292);
+    let t294 = neg_mul_add(platform_rotation[1][2], t276, t293);
+    mass_matrix_p[3][4] = t294;
+    mass_matrix_p[4][3] = t294;
+    let t295 = mul_sub(t79, t224, mul_sub(t76, t223, t248));
+    let t296 = mul_sub(t85, t225, mul_sub(t78, t242, t295));
+    let t297 = mul_sub(t91, t226, mul_sub(t83, t243, t296));
+    let t298 = mul_sub(t94, t227, mul_sub(t89, t244, t297));
+    let t299 = mul_sub(t97, t228, mul_sub(t93, t245, t298));
+    let t300 = neg_mul_add(platform_rotation[2][0], t278, mul_sub(t96, t246, t299));
+    let t301 = neg_mul_add(platform_rotation[2][1], t277, t300);
+    let t302 = neg_mul_add(platform_rotation[2][2], t276, t301);
+    mass_matrix_p[3][5] = t302;
+    mass_matrix_p[5][3] = t302;
+    let t303 = platform_rotation[1][2] * c(0.013354412);
+    let t304 = platform_rotation[1][1] * c(0.032245600000000006);
+    let t305 = platform_rotation[1][0] * c(0.032245600000000006);
+    let t306 = mul_sub(t76, t193, mul_add(t72, t235, c(0.07784561200000001)));
+    let t307 = mul_sub(t79, t194, mul_add(t77, t236, t306));
+    let t308 = mul_sub(t85, t195, mul_sub(t81, t237, t307));
+    let t309 = mul_sub(t91, t196, mul_sub(t87, t238, t308));
+    let t310 = mul_sub(t94, t197, mul_sub(t92, t239, t309));
+    let t311 = mul_sub(t97, t198, mul_sub(t95, t240, t310));
+    let t312 = neg_mul_add(platform_rotation[1][0], t305, t311);
+    let t313 = neg_mul_add(platform_rotation[1][1], t304, t312);
+    mass_matrix_p[4][4] = neg_mul_add(platform_rotation[1][2], t303, t313);
+    let t314 = mul_sub(t77, t242, mul_sub(t72, t241, t249));
+    let t315 = mul_sub(t81, t243, mul_sub(t79, t200, t314));
+    let t316 = mul_sub(t87, t244, mul_sub(t85, t201, t315));
+    let t317 = mul_sub(t92, t245, mul_sub(t91, t202, t316));
+    let t318 = mul_sub(t95, t246, mul_sub(t94, t203, t317));
+    let t319 = neg_mul_add(platform_rotation[2][0], t305, mul_sub(t97, t204, t318));
+    let t320 = neg_mul_add(platform_rotation[2][1], t304, t319);
+    let t321 = neg_mul_add(platform_rotation[2][2], t303, t320);
+    mass_matrix_p[4][5] = t321;
+    mass_matrix_p[5][4] = t321;
+    let t322 = platform_rotation[2][2] * c(-0.013354412);
+    let t323 = platform_rotation[2][1] * c(0.032245600000000006);
+    let t324 = platform_rotation[2][0] * c(0.032245600000000006);
+    let t325 = mul_sub(t72, t223, mul_add(t74, t199, c(0.07784561200000001)));
+    let t326 = mul_sub(t77, t224, mul_add(t78, t200, t325));
+    let t327 = mul_sub(t81, t225, mul_sub(t83, t201, t326));
+    let t328 = mul_sub(t87, t226, mul_sub(t89, t202, t327));
+    let t329 = mul_sub(t92, t227, mul_sub(t93, t203, t328));
+    let t330 = mul_sub(t95, t228, mul_sub(t96, t204, t329));
+    let t331 = mul_sub(platform_rotation[2][0], t324, t330);
+    let t332 = mul_add(platform_rotation[2][1], t323, t331);
+    mass_matrix_p[5][5] = mul_sub(platform_rotation[2][2], t322, t332);
 }
 
 /// Mass matrix that couples the base acceleration, equation (49).
@@ -15665,801 +15637,797 @@ pub fn control<T: Scalar>(
     let t195 = mul_sub(t101, t175, t102 * t173);
     jacobian_dp[5][5] = t195;
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t196 = base_rotation[0][2] * c(0.17066666666666666);
-    let t197 = mul_add(t143, c(0.4761666666666667), t196);
-    let t198 = t143 * t197;
-    let t199 = c(2.0) * t198;
-    let t200 = base_rotation[1][2] * c(0.17066666666666666);
-    let t201 = mul_add(t145, c(0.4761666666666667), t200);
-    let t202 = mul_add(t143, t201, t145 * t197);
-    let t203 = base_rotation[2][2] * c(0.17066666666666666);
-    let t204 = mul_add(t147, c(0.4761666666666667), t203);
-    let t205 = mul_add(t143, t204, t147 * t197);
-    let t206 = t145 * t201;
-    let t207 = c(2.0) * t206;
-    let t208 = mul_add(t145, t204, t147 * t201);
-    let t209 = t147 * t204;
-    let t210 = c(2.0) * t209;
+    let t196 = base_rotation[0][2] * c(0.03058499591646249);
+    let t197 = base_rotation[0][2] * t196;
+    let t198 = mul_add(base_rotation[0][2], c(0.1792089604480224), t143);
+    let t199 = c(0.9523333333333334) * t198;
+    let t200 = mul_sub(t198, t199, t197);
+    let t201 = base_rotation[1][2] * t196;
+    let t202 = mul_add(base_rotation[1][2], c(0.1792089604480224), t145);
+    let t203 = mul_sub(t199, t202, t201);
+    let t204 = base_rotation[2][2] * t196;
+    let t205 = mul_add(base_rotation[2][2], c(0.1792089604480224), t147);
+    let t206 = mul_sub(t199, t205, t204);
+    let t207 = base_rotation[1][2] * c(0.03058499591646249);
+    let t208 = base_rotation[1][2] * t207;
+    let t209 = c(0.9523333333333334) * t202;
+    let t210 = mul_sub(t202, t209, t208);
+    let t211 = base_rotation[2][2] * t207;
+    let t212 = mul_sub(t205, t209, t211);
+    let t213 = base_rotation[2][2] * (base_rotation[2][2] * c(0.03058499591646249));
+    let t214 = mul_sub(t205, c(0.9523333333333334) * t205, t213);
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t211 = mul_add(t149, c(0.4761666666666667), t196);
-    let t212 = t149 * t211;
-    let t213 = c(2.0) * t212;
-    let t214 = mul_add(t151, c(0.4761666666666667), t200);
-    let t215 = mul_add(t149, t214, t151 * t211);
-    let t216 = mul_add(t153, c(0.4761666666666667), t203);
-    let t217 = mul_add(t149, t216, t153 * t211);
-    let t218 = t151 * t214;
-    let t219 = c(2.0) * t218;
-    let t220 = mul_add(t151, t216, t153 * t214);
-    let t221 = t153 * t216;
-    let t222 = c(2.0) * t221;
+    let t215 = mul_add(base_rotation[0][2], c(0.1792089604480224), t149);
+    let t216 = c(0.9523333333333334) * t215;
+    let t217 = neg_mul_add(t215, t216, t197);
+    let t218 = mul_add(base_rotation[1][2], c(0.1792089604480224), t151);
+    let t219 = neg_mul_add(t216, t218, t201);
+    let t220 = mul_add(base_rotation[2][2], c(0.1792089604480224), t153);
+    let t221 = neg_mul_add(t216, t220, t204);
+    let t222 = c(0.9523333333333334) * t218;
+    let t223 = neg_mul_add(t218, t222, t208);
+    let t224 = neg_mul_add(t220, t222, t211);
+    let t225 = neg_mul_add(t220, c(0.9523333333333334) * t220, t213);
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t223 = neg_mul_add(t155, c(0.4761666666666667), t196);
-    let t224 = t155 * t223;
-    let t225 = c(2.0) * t224;
-    let t226 = neg_mul_add(t157, c(0.4761666666666667), t200);
-    let t227 = mul_add(t155, t226, t157 * t223);
-    let t228 = neg_mul_add(t159, c(0.4761666666666667), t203);
-    let t229 = mul_add(t155, t228, t159 * t223);
-    let t230 = t157 * t226;
-    let t231 = c(2.0) * t230;
-    let t232 = mul_add(t157, t228, t159 * t226);
-    let t233 = t159 * t228;
-    let t234 = c(2.0) * t233;
+    let t226 = neg_mul_add(base_rotation[0][2], c(0.1792089604480224), t155);
+    let t227 = c(0.9523333333333334) * t226;
+    let t228 = neg_mul_add(t226, t227, t197);
+    let t229 = neg_mul_add(base_rotation[1][2], c(0.1792089604480224), t157);
+    let t230 = neg_mul_add(t227, t229, t201);
+    let t231 = neg_mul_add(base_rotation[2][2], c(0.1792089604480224), t159);
+    let t232 = neg_mul_add(t227, t231, t204);
+    let t233 = c(0.9523333333333334) * t229;
+    let t234 = neg_mul_add(t229, t233, t208);
+    let t235 = neg_mul_add(t231, t233, t211);
+    let t236 = neg_mul_add(t231, c(0.9523333333333334) * t231, t213);
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t235 = neg_mul_add(t161, c(0.4761666666666667), t196);
-    let t236 = t161 * t235;
-    let t237 = c(2.0) * t236;
-    let t238 = neg_mul_add(t163, c(0.4761666666666667), t200);
-    let t239 = mul_add(t161, t238, t163 * t235);
-    let t240 = neg_mul_add(t165, c(0.4761666666666667), t203);
-    let t241 = mul_add(t161, t240, t165 * t235);
-    let t242 = t163 * t238;
-    let t243 = c(2.0) * t242;
-    let t244 = mul_add(t163, t240, t165 * t238);
-    let t245 = t165 * t240;
-    let t246 = c(2.0) * t245;
+    let t237 = neg_mul_add(base_rotation[0][2], c(0.1792089604480224), t161);
+    let t238 = c(0.9523333333333334) * t237;
+    let t239 = neg_mul_add(t237, t238, t197);
+    let t240 = neg_mul_add(base_rotation[1][2], c(0.1792089604480224), t163);
+    let t241 = neg_mul_add(t238, t240, t201);
+    let t242 = neg_mul_add(base_rotation[2][2], c(0.1792089604480224), t165);
+    let t243 = neg_mul_add(t238, t242, t204);
+    let t244 = c(0.9523333333333334) * t240;
+    let t245 = neg_mul_add(t240, t244, t208);
+    let t246 = neg_mul_add(t242, t244, t211);
+    let t247 = neg_mul_add(t242, c(0.9523333333333334) * t242, t213);
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t247 = neg_mul_add(t167, c(0.4761666666666667), t196);
-    let t248 = t167 * t247;
-    let t249 = c(2.0) * t248;
-    let t250 = neg_mul_add(t169, c(0.4761666666666667), t200);
-    let t251 = mul_add(t167, t250, t169 * t247);
-    let t252 = neg_mul_add(t171, c(0.4761666666666667), t203);
-    let t253 = mul_add(t167, t252, t171 * t247);
-    let t254 = t169 * t250;
-    let t255 = c(2.0) * t254;
-    let t256 = mul_add(t169, t252, t171 * t250);
-    let t257 = t171 * t252;
-    let t258 = c(2.0) * t257;
+    let t248 = neg_mul_add(base_rotation[0][2], c(0.1792089604480224), t167);
+    let t249 = c(0.9523333333333334) * t248;
+    let t250 = neg_mul_add(t248, t249, t197);
+    let t251 = neg_mul_add(base_rotation[1][2], c(0.1792089604480224), t169);
+    let t252 = neg_mul_add(t249, t251, t201);
+    let t253 = neg_mul_add(base_rotation[2][2], c(0.1792089604480224), t171);
+    let t254 = neg_mul_add(t249, t253, t204);
+    let t255 = c(0.9523333333333334) * t251;
+    let t256 = neg_mul_add(t251, t255, t208);
+    let t257 = neg_mul_add(t253, t255, t211);
+    let t258 = neg_mul_add(t253, c(0.9523333333333334) * t253, t213);
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t259 = neg_mul_add(t173, c(0.4761666666666667), t196);
-    let t260 = t173 * t259;
-    let t261 = c(2.0) * t260;
-    let t262 = neg_mul_add(t175, c(0.4761666666666667), t200);
-    let t263 = mul_add(t173, t262, t175 * t259);
-    let t264 = neg_mul_add(t177, c(0.4761666666666667), t203);
-    let t265 = mul_add(t173, t264, t177 * t259);
-    let t266 = t175 * t262;
-    let t267 = c(2.0) * t266;
-    let t268 = mul_add(t175, t264, t177 * t262);
-    let t269 = t177 * t264;
-    let t270 = c(2.0) * t269;
+    let t259 = neg_mul_add(base_rotation[0][2], c(0.1792089604480224), t173);
+    let t260 = c(0.9523333333333334) * t259;
+    let t261 = neg_mul_add(t259, t260, t197);
+    let t262 = neg_mul_add(base_rotation[1][2], c(0.1792089604480224), t175);
+    let t263 = neg_mul_add(t260, t262, t201);
+    let t264 = neg_mul_add(base_rotation[2][2], c(0.1792089604480224), t177);
+    let t265 = neg_mul_add(t260, t264, t204);
+    let t266 = c(0.9523333333333334) * t262;
+    let t267 = neg_mul_add(t262, t266, t208);
+    let t268 = neg_mul_add(t264, t266, t211);
+    let t269 = neg_mul_add(t264, c(0.9523333333333334) * t264, t213);
     // mass matrix of the legs
-    let t271 = t263 + (t251 + (t239 + (t227 - (t202 + t215))));
-    let t272 = t265 + (t253 + (t241 + (t229 - (t205 + t217))));
-    let t273 = mul_add(t57, t215, mul_sub(t48, t202, t46 * t205));
-    let t274 = mul_sub(t71, t227, mul_sub(t56, t217, t273));
-    let t275 = mul_sub(t86, t239, mul_sub(t69, t229, t274));
-    let t276 = mul_sub(t95, t251, mul_sub(t84, t241, t275));
-    let t277 = mul_sub(t103, t263, mul_sub(t94, t253, t276));
-    let t278 = mul_sub(t102, t265, t277);
-    mass_matrix_p[0][3] = t278;
-    mass_matrix_p[3][0] = t278;
-    let t279 = mul_sub(t44, t205, t48 * t199);
-    let t280 = mul_sub(t55, t217, t57 * t213);
-    let t281 = mul_sub(t67, t229, t71 * t225);
-    let t282 = mul_sub(t82, t241, t86 * t237);
-    let t283 = mul_sub(t93, t253, t95 * t249);
-    let t284 = mul_sub(t101, t265, t103 * t261);
-    let t285 = mul_sub(t46, t199, t44 * t202);
-    let t286 = mul_sub(t56, t213, t55 * t215);
-    let t287 = mul_sub(t69, t225, t67 * t227);
-    let t288 = mul_sub(t84, t237, t82 * t239);
-    let t289 = mul_sub(t94, t249, t93 * t251);
-    let t290 = mul_sub(t102, t261, t101 * t263);
-    let t291 = t268 + (t256 + (t244 + (t232 - (t208 + t220))));
-    let t292 = mul_sub(t48, t207, t46 * t208);
-    let t293 = mul_sub(t57, t219, t56 * t220);
-    let t294 = mul_sub(t71, t231, t69 * t232);
-    let t295 = mul_sub(t86, t243, t84 * t244);
-    let t296 = mul_sub(t95, t255, t94 * t256);
-    let t297 = mul_sub(t103, t267, t102 * t268);
-    let t298 = t44 * t208;
-    let t299 = mul_sub(t48, t202, t298);
-    let t300 = t55 * t220;
-    let t301 = mul_sub(t57, t215, t300);
-    let t302 = t67 * t232;
-    let t303 = mul_sub(t71, t227, t302);
-    let t304 = t82 * t244;
-    let t305 = mul_sub(t86, t239, t304);
-    let t306 = t93 * t256;
-    let t307 = mul_sub(t95, t251, t306);
-    let t308 = t101 * t268;
-    let t309 = mul_sub(t103, t263, t308);
-    let t310 = t309 + (t307 + (t305 + (t303 + (t299 + t301))));
-    mass_matrix_p[1][4] = t310;
-    mass_matrix_p[4][1] = t310;
-    let t311 = mul_sub(t46, t202, t44 * t207);
-    let t312 = mul_sub(t56, t215, t55 * t219);
-    let t313 = mul_sub(t69, t227, t67 * t231);
-    let t314 = mul_sub(t84, t239, t82 * t243);
-    let t315 = mul_sub(t94, t251, t93 * t255);
-    let t316 = mul_sub(t102, t263, t101 * t267);
-    let t317 = mul_sub(t48, t208, t46 * t210);
-    let t318 = mul_sub(t57, t220, t56 * t222);
-    let t319 = mul_sub(t71, t232, t69 * t234);
-    let t320 = mul_sub(t86, t244, t84 * t246);
-    let t321 = mul_sub(t95, t256, t94 * t258);
-    let t322 = mul_sub(t103, t268, t102 * t270);
-    let t323 = mul_sub(t44, t210, t48 * t205);
-    let t324 = mul_sub(t55, t222, t57 * t217);
-    let t325 = mul_sub(t67, t234, t71 * t229);
-    let t326 = mul_sub(t82, t246, t86 * t241);
-    let t327 = mul_sub(t93, t258, t95 * t253);
-    let t328 = mul_sub(t101, t270, t103 * t265);
-    let t329 = mul_sub(t46, t205, t298);
-    let t330 = mul_sub(t56, t217, t300);
-    let t331 = mul_sub(t69, t229, t302);
-    let t332 = mul_sub(t84, t241, t304);
-    let t333 = mul_sub(t94, t253, t306);
-    let t334 = mul_sub(t102, t265, t308);
-    let t335 = t334 + (t333 + (t332 + (t331 + (t329 + t330))));
-    let t336 = t46 * t323;
-    let t337 = t46 * t329;
-    let t338 = t48 * t285;
+    let t270 = t263 + (t252 + (t241 + (t230 - (t203 - t219))));
+    let t271 = t265 + (t254 + (t243 + (t232 - (t206 - t221))));
+    let t272 = mul_sub(t57, t219, mul_sub(t48, t203, t46 * t206));
+    let t273 = mul_add(t71, t230, mul_sub(t56, t221, t272));
+    let t274 = mul_sub(t86, t241, mul_sub(t69, t232, t273));
+    let t275 = mul_sub(t95, t252, mul_sub(t84, t243, t274));
+    let t276 = mul_sub(t103, t263, mul_sub(t94, t254, t275));
+    let t277 = mul_sub(t102, t265, t276);
+    mass_matrix_p[0][3] = t277;
+    mass_matrix_p[3][0] = t277;
+    let t278 = mul_sub(t44, t206, t48 * t200);
+    let t279 = mul_sub(t55, t221, t57 * t217);
+    let t280 = mul_sub(t67, t232, t71 * t228);
+    let t281 = mul_sub(t82, t243, t86 * t239);
+    let t282 = mul_sub(t93, t254, t95 * t250);
+    let t283 = mul_sub(t101, t265, t103 * t261);
+    let t284 = mul_sub(t46, t200, t44 * t203);
+    let t285 = mul_sub(t56, t217, t55 * t219);
+    let t286 = mul_sub(t69, t228, t67 * t230);
+    let t287 = mul_sub(t84, t239, t82 * t241);
+    let t288 = mul_sub(t94, t250, t93 * t252);
+    let t289 = mul_sub(t102, t261, t101 * t263);
+    let t290 = t268 + (t257 + (t246 + (t235 - (t212 - t224))));
+    let t291 = mul_sub(t48, t210, t46 * t212);
+    let t292 = mul_sub(t57, t223, t56 * t224);
+    let t293 = mul_sub(t71, t234, t69 * t235);
+    let t294 = mul_sub(t86, t245, t84 * t246);
+    let t295 = mul_sub(t95, t256, t94 * t257);
+    let t296 = mul_sub(t103, t267, t102 * t268);
+    let t297 = t44 * t212;
+    let t298 = mul_sub(t48, t203, t297);
+    let t299 = t55 * t224;
+    let t300 = mul_sub(t57, t219, t299);
+    let t301 = t67 * t235;
+    let t302 = mul_sub(t71, t230, t301);
+    let t303 = t82 * t246;
+    let t304 = mul_sub(t86, t241, t303);
+    let t305 = t93 * t257;
+    let t306 = mul_sub(t95, t252, t305);
+    let t307 = t101 * t268;
+    let t308 = mul_sub(t103, t263, t307);
+    let t309 = t308 + (t306 + (t304 + (t302 + (t298 - t300))));
+    mass_matrix_p[1][4] = t309;
+    mass_matrix_p[4][1] = t309;
+    let t310 = mul_sub(t46, t203, t44 * t210);
+    let t311 = mul_sub(t56, t219, t55 * t223);
+    let t312 = mul_sub(t69, t230, t67 * t234);
+    let t313 = mul_sub(t84, t241, t82 * t245);
+    let t314 = mul_sub(t94, t252, t93 * t256);
+    let t315 = mul_sub(t102, t263, t101 * t267);
+    let t316 = mul_sub(t48, t212, t46 * t214);
+    let t317 = mul_sub(t57, t224, t56 * t225);
+    let t318 = mul_sub(t71, t235, t69 * t236);
+    let t319 = mul_sub(t86, t246, t84 * t247);
+    let t320 = mul_sub(t95, t257, t94 * t258);
+    let t321 = mul_sub(t103, t268, t102 * t269);
+    let t322 = mul_sub(t44, t214, t48 * t206);
+    let t323 = mul_sub(t55, t225, t57 * t221);
+    let t324 = mul_sub(t67, t236, t71 * t232);
+    let t325 = mul_sub(t82, t247, t86 * t243);
+    let t326 = mul_sub(t93, t258, t95 * t254);
+    let t327 = mul_sub(t101, t269, t103 * t265);
+    let t328 = mul_sub(t46, t206, t297);
+    let t329 = mul_sub(t56, t221, t299);
+    let t330 = mul_sub(t69, t232, t301);
+    let t331 = mul_sub(t84, t243, t303);
+    let t332 = mul_sub(t94, t254, t305);
+    let t333 = mul_sub(t102, t265, t307);
+    let t334 = t333 + (t332 + (t331 + (t330 + (t328 - t329))));
+    let t335 = t46 * t322;
+    let t336 = t46 * t328;
+    let t337 = t48 * t284;
+    let t338 = -t270;
+    mass_matrix_p[0][1] = t338;
+    mass_matrix_p[1][0] = t338;
     let t339 = -t271;
-    mass_matrix_p[0][1] = t339;
-    mass_matrix_p[1][0] = t339;
-    let t340 = -t272;
-    mass_matrix_p[0][2] = t340;
-    mass_matrix_p[2][0] = t340;
-    let t341 = -t291;
-    mass_matrix_p[1][2] = t341;
-    mass_matrix_p[2][1] = t341;
-    let t342 = -t335;
-    mass_matrix_p[2][5] = t342;
-    mass_matrix_p[5][2] = t342;
+    mass_matrix_p[0][2] = t339;
+    mass_matrix_p[2][0] = t339;
+    let t340 = -t290;
+    mass_matrix_p[1][2] = t340;
+    mass_matrix_p[2][1] = t340;
+    let t341 = -t334;
+    mass_matrix_p[2][5] = t341;
+    mass_matrix_p[5][2] = t341;
     // mass matrix M_p of the platform
-    let t343 = mul_add(c(2.0), t212, mul_add(c(2.0), t198, c(8.139999999999999)));
-    let t344 = mul_add(c(2.0), t236, mul_sub(c(2.0), t224, t343));
-    let t345 = mul_add(c(2.0), t260, mul_add(c(2.0), t248, t344));
-    let t346 = t281 + (t280 + neg_mul_add(platform_rotation[2][2], c(0.188852), t279));
-    let t347 = t284 + (t283 + (t282 + t346));
-    let t348 = t287 + (t286 + mul_add(platform_rotation[1][2], c(0.188852), t285));
-    let t349 = t290 + (t289 + (t288 + t348));
-    let t350 = mul_add(c(2.0), t218, mul_add(c(2.0), t206, c(8.139999999999999)));
-    let t351 = mul_add(c(2.0), t242, mul_sub(c(2.0), t230, t350));
-    let t352 = mul_add(c(2.0), t266, mul_add(c(2.0), t254, t351));
-    let t353 = t294 + (t293 + mul_add(platform_rotation[2][2], c(0.188852), t292));
-    let t354 = t297 + (t296 + (t295 + t353));
-    let t355 = t313 + (t312 + neg_mul_add(platform_rotation[0][2], c(0.188852), t311));
-    let t356 = t316 + (t315 + (t314 + t355));
-    let t357 = mul_add(c(2.0), t221, mul_add(c(2.0), t209, c(8.139999999999999)));
-    let t358 = mul_add(c(2.0), t245, mul_sub(c(2.0), t233, t357));
-    let t359 = mul_add(c(2.0), t269, mul_add(c(2.0), t257, t358));
-    let t360 = t319 + (t318 + neg_mul_add(platform_rotation[1][2], c(0.188852), t317));
-    let t361 = t322 + (t321 + (t320 + t360));
-    let t362 = t325 + (t324 + mul_add(platform_rotation[0][2], c(0.188852), t323));
-    let t363 = t328 + (t327 + (t326 + t362));
-    let t364 = platform_rotation[0][2] * c(0.013354412);
-    let t365 = platform_rotation[0][1] * c(0.032245600000000006);
-    let t366 = platform_rotation[0][0] * c(0.032245600000000006);
-    let t367 = mul_sub(t46, t317, mul_add(t48, t292, c(0.07784561200000001)));
-    let t368 = mul_sub(t56, t318, mul_sub(t57, t293, t367));
-    let t369 = mul_sub(t69, t319, mul_add(t71, t294, t368));
-    let t370 = mul_sub(t84, t320, mul_sub(t86, t295, t369));
-    let t371 = mul_sub(t94, t321, mul_sub(t95, t296, t370));
-    let t372 = mul_sub(t102, t322, mul_sub(t103, t297, t371));
-    let t373 = mul_sub(platform_rotation[0][0], t366, t372);
-    let t374 = mul_add(platform_rotation[0][1], t365, t373);
-    let t375 = mul_add(platform_rotation[0][2], t364, t374);
-    let t376 = mul_add(t57, t301, mul_add(t48, t299, t336));
-    let t377 = mul_sub(t71, t303, mul_add(t56, t324, t376));
-    let t378 = mul_add(t86, t305, mul_add(t69, t325, t377));
-    let t379 = mul_add(t95, t307, mul_add(t84, t326, t378));
-    let t380 = mul_add(t103, t309, mul_add(t94, t327, t379));
-    let t381 = mul_sub(platform_rotation[1][0], t366, mul_add(t102, t328, t380));
-    let t382 = mul_add(platform_rotation[1][1], t365, t381);
-    let t383 = mul_add(platform_rotation[1][2], t364, t382);
-    let t384 = mul_add(t57, t312, mul_sub(t48, t311, t337));
-    let t385 = mul_add(t71, t313, mul_sub(t56, t330, t384));
-    let t386 = mul_sub(t86, t314, mul_sub(t69, t331, t385));
-    let t387 = mul_sub(t95, t315, mul_sub(t84, t332, t386));
-    let t388 = mul_sub(t103, t316, mul_sub(t94, t333, t387));
-    let t389 = mul_sub(platform_rotation[2][0], t366, mul_sub(t102, t334, t388));
-    let t390 = mul_add(platform_rotation[2][1], t365, t389);
-    let t391 = mul_add(platform_rotation[2][2], t364, t390);
-    let t392 = platform_rotation[1][2] * c(0.013354412);
-    let t393 = platform_rotation[1][1] * c(0.032245600000000006);
-    let t394 = platform_rotation[1][0] * c(0.032245600000000006);
-    let t395 = mul_sub(t48, t279, mul_add(t44, t323, c(0.07784561200000001)));
-    let t396 = mul_sub(t57, t280, mul_sub(t55, t324, t395));
-    let t397 = mul_sub(t71, t281, mul_add(t67, t325, t396));
-    let t398 = mul_sub(t86, t282, mul_sub(t82, t326, t397));
-    let t399 = mul_sub(t95, t283, mul_sub(t93, t327, t398));
-    let t400 = mul_sub(t103, t284, mul_sub(t101, t328, t399));
-    let t401 = mul_sub(platform_rotation[1][0], t394, t400);
-    let t402 = mul_add(platform_rotation[1][1], t393, t401);
-    let t403 = mul_add(platform_rotation[1][2], t392, t402);
-    let t404 = mul_add(t55, t330, mul_sub(t44, t329, t338));
-    let t405 = mul_add(t67, t331, mul_sub(t57, t286, t404));
-    let t406 = mul_sub(t82, t332, mul_sub(t71, t287, t405));
-    let t407 = mul_sub(t93, t333, mul_sub(t86, t288, t406));
-    let t408 = mul_sub(t101, t334, mul_sub(t95, t289, t407));
-    let t409 = mul_sub(platform_rotation[2][0], t394, mul_sub(t103, t290, t408));
-    let t410 = mul_add(platform_rotation[2][1], t393, t409);
-    let t411 = mul_add(platform_rotation[2][2], t392, t410);
-    let t412 = platform_rotation[2][2] * c(0.013354412);
-    let t413 = platform_rotation[2][1] * c(0.032245600000000006);
-    let t414 = platform_rotation[2][0] * c(0.032245600000000006);
-    let t415 = mul_sub(t44, t311, mul_add(t46, t285, c(0.07784561200000001)));
-    let t416 = mul_sub(t55, t312, mul_sub(t56, t286, t415));
-    let t417 = mul_sub(t67, t313, mul_add(t69, t287, t416));
-    let t418 = mul_sub(t82, t314, mul_sub(t84, t288, t417));
-    let t419 = mul_sub(t93, t315, mul_sub(t94, t289, t418));
-    let t420 = mul_sub(t101, t316, mul_sub(t102, t290, t419));
-    let t421 = mul_sub(platform_rotation[2][0], t414, t420);
-    let t422 = mul_add(platform_rotation[2][1], t413, t421);
-    let t423 = mul_add(platform_rotation[2][2], t412, t422);
-    mass_matrix_p[0][0] = -t345;
-    let t424 = -t347;
-    mass_matrix_p[0][4] = t424;
-    mass_matrix_p[4][0] = t424;
-    let t425 = -t349;
-    mass_matrix_p[0][5] = t425;
-    mass_matrix_p[5][0] = t425;
-    mass_matrix_p[1][1] = -t352;
-    let t426 = -t354;
-    mass_matrix_p[1][3] = t426;
-    mass_matrix_p[3][1] = t426;
-    let t427 = -t356;
-    mass_matrix_p[1][5] = t427;
-    mass_matrix_p[5][1] = t427;
-    mass_matrix_p[2][2] = -t359;
-    let t428 = -t361;
-    mass_matrix_p[2][3] = t428;
-    mass_matrix_p[3][2] = t428;
-    let t429 = -t363;
-    mass_matrix_p[2][4] = t429;
-    mass_matrix_p[4][2] = t429;
-    mass_matrix_p[3][3] = -t375;
-    let t430 = -t383;
-    mass_matrix_p[3][4] = t430;
-    mass_matrix_p[4][3] = t430;
-    let t431 = -t391;
-    mass_matrix_p[3][5] = t431;
-    mass_matrix_p[5][3] = t431;
-    mass_matrix_p[4][4] = -t403;
-    let t432 = -t411;
-    mass_matrix_p[4][5] = t432;
-    mass_matrix_p[5][4] = t432;
-    mass_matrix_p[5][5] = -t423;
+    let t342 = t250 + (t239 + (t228 + (t217 - (c(8.139999999999999) + t200))));
+    let t343 = t261 + t342;
+    let t344 = t280 - (t279 - neg_mul_add(platform_rotation[2][2], c(0.188852), t278));
+    let t345 = t283 + (t282 + (t281 + t344));
+    let t346 = t286 - (t285 - mul_add(platform_rotation[1][2], c(0.188852), t284));
+    let t347 = t289 + (t288 + (t287 + t346));
+    let t348 = t256 + (t245 + (t234 + (t223 - (c(8.139999999999999) + t210))));
+    let t349 = t267 + t348;
+    let t350 = t293 - (t292 - mul_add(platform_rotation[2][2], c(0.188852), t291));
+    let t351 = t296 + (t295 + (t294 + t350));
+    let t352 = t312 - (t311 - neg_mul_add(platform_rotation[0][2], c(0.188852), t310));
+    let t353 = t315 + (t314 + (t313 + t352));
+    let t354 = t258 + (t247 + (t236 + (t225 - (c(8.139999999999999) + t214))));
+    let t355 = t269 + t354;
+    let t356 = t318 - (t317 - neg_mul_add(platform_rotation[1][2], c(0.188852), t316));
+    let t357 = t321 + (t320 + (t319 + t356));
+    let t358 = t324 - (t323 - mul_add(platform_rotation[0][2], c(0.188852), t322));
+    let t359 = t327 + (t326 + (t325 + t358));
+    let t360 = platform_rotation[0][2] * c(0.013354412);
+    let t361 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t362 = platform_rotation[0][0] * c(0.032245600000000006);
+    let t363 = mul_sub(t46, t316, mul_add(t48, t291, c(0.07784561200000001)));
+    let t364 = mul_sub(t56, t317, mul_add(t57, t292, t363));
+    let t365 = mul_sub(t69, t318, mul_sub(t71, t293, t364));
+    let t366 = mul_sub(t84, t319, mul_sub(t86, t294, t365));
+    let t367 = mul_sub(t94, t320, mul_sub(t95, t295, t366));
+    let t368 = mul_sub(t102, t321, mul_sub(t103, t296, t367));
+    let t369 = mul_sub(platform_rotation[0][0], t362, t368);
+    let t370 = mul_add(platform_rotation[0][1], t361, t369);
+    let t371 = mul_add(platform_rotation[0][2], t360, t370);
+    let t372 = mul_sub(t57, t300, mul_add(t48, t298, t335));
+    let t373 = mul_add(t71, t302, mul_add(t56, t323, t372));
+    let t374 = mul_add(t86, t304, mul_add(t69, t324, t373));
+    let t375 = mul_add(t95, t306, mul_add(t84, t325, t374));
+    let t376 = mul_add(t103, t308, mul_add(t94, t326, t375));
+    let t377 = mul_sub(platform_rotation[1][0], t362, mul_add(t102, t327, t376));
+    let t378 = mul_add(platform_rotation[1][1], t361, t377);
+    let t379 = mul_add(platform_rotation[1][2], t360, t378);
+    let t380 = mul_sub(t57, t311, mul_sub(t48, t310, t336));
+    let t381 = mul_sub(t71, t312, mul_sub(t56, t329, t380));
+    let t382 = mul_sub(t86, t313, mul_sub(t69, t330, t381));
+    let t383 = mul_sub(t95, t314, mul_sub(t84, t331, t382));
+    let t384 = mul_sub(t103, t315, mul_sub(t94, t332, t383));
+    let t385 = mul_sub(platform_rotation[2][0], t362, mul_sub(t102, t333, t384));
+    let t386 = mul_add(platform_rotation[2][1], t361, t385);
+    let t387 = mul_add(platform_rotation[2][2], t360, t386);
+    let t388 = platform_rotation[1][2] * c(0.013354412);
+    let t389 = platform_rotation[1][1] * c(0.032245600000000006);
+    let t390 = platform_rotation[1][0] * c(0.032245600000000006);
+    let t391 = mul_sub(t48, t278, mul_add(t44, t322, c(0.07784561200000001)));
+    let t392 = mul_sub(t57, t279, mul_add(t55, t323, t391));
+    let t393 = mul_sub(t71, t280, mul_sub(t67, t324, t392));
+    let t394 = mul_sub(t86, t281, mul_sub(t82, t325, t393));
+    let t395 = mul_sub(t95, t282, mul_sub(t93, t326, t394));
+    let t396 = mul_sub(t103, t283, mul_sub(t101, t327, t395));
+    let t397 = mul_sub(platform_rotation[1][0], t390, t396);
+    let t398 = mul_add(platform_rotation[1][1], t389, t397);
+    let t399 = mul_add(platform_rotation[1][2], t388, t398);
+    let t400 = mul_sub(t55, t329, mul_sub(t44, t328, t337));
+    let t401 = mul_sub(t67, t330, mul_sub(t57, t285, t400));
+    let t402 = mul_sub(t82, t331, mul_sub(t71, t286, t401));
+    let t403 = mul_sub(t93, t332, mul_sub(t86, t287, t402));
+    let t404 = mul_sub(t101, t333, mul_sub(t95, t288, t403));
+    let t405 = mul_sub(platform_rotation[2][0], t390, mul_sub(t103, t289, t404));
+    let t406 = mul_add(platform_rotation[2][1], t389, t405);
+    let t407 = mul_add(platform_rotation[2][2], t388, t406);
+    let t408 = platform_rotation[2][2] * c(0.013354412);
+    let t409 = platform_rotation[2][1] * c(0.032245600000000006);
+    let t410 = platform_rotation[2][0] * c(0.032245600000000006);
+    let t411 = mul_sub(t44, t310, mul_add(t46, t284, c(0.07784561200000001)));
+    let t412 = mul_sub(t55, t311, mul_add(t56, t285, t411));
+    let t413 = mul_sub(t67, t312, mul_sub(t69, t286, t412));
+    let t414 = mul_sub(t82, t313, mul_sub(t84, t287, t413));
+    let t415 = mul_sub(t93, t314, mul_sub(t94, t288, t414));
+    let t416 = mul_sub(t101, t315, mul_sub(t102, t289, t415));
+    let t417 = mul_sub(platform_rotation[2][0], t410, t416);
+    let t418 = mul_add(platform_rotation[2][1], t409, t417);
+    let t419 = mul_add(platform_rotation[2][2], t408, t418);
+    mass_matrix_p[0][0] = -t343;
+    let t420 = -t345;
+    mass_matrix_p[0][4] = t420;
+    mass_matrix_p[4][0] = t420;
+    let t421 = -t347;
+    mass_matrix_p[0][5] = t421;
+    mass_matrix_p[5][0] = t421;
+    mass_matrix_p[1][1] = -t349;
+    let t422 = -t351;
+    mass_matrix_p[1][3] = t422;
+    mass_matrix_p[3][1] = t422;
+    let t423 = -t353;
+    mass_matrix_p[1][5] = t423;
+    mass_matrix_p[5][1] = t423;
+    mass_matrix_p[2][2] = -t355;
+    let t424 = -t357;
+    mass_matrix_p[2][3] = t424;
+    mass_matrix_p[3][2] = t424;
+    let t425 = -t359;
+    mass_matrix_p[2][4] = t425;
+    mass_matrix_p[4][2] = t425;
+    mass_matrix_p[3][3] = -t371;
+    let t426 = -t379;
+    mass_matrix_p[3][4] = t426;
+    mass_matrix_p[4][3] = t426;
+    let t427 = -t387;
+    mass_matrix_p[3][5] = t427;
+    mass_matrix_p[5][3] = t427;
+    mass_matrix_p[4][4] = -t399;
+    let t428 = -t407;
+    mass_matrix_p[4][5] = t428;
+    mass_matrix_p[5][4] = t428;
+    mass_matrix_p[5][5] = -t419;
     // angular velocity of the base
-    let t433 = base_rotation[1][0] * base_velocity[4];
-    let t434 = mul_add(base_rotation[0][0], base_velocity[3], t433);
-    let t435 = mul_add(base_rotation[2][0], base_velocity[5], t434);
-    let t436 = base_rotation[1][1] * base_velocity[4];
-    let t437 = mul_add(base_rotation[0][1], base_velocity[3], t436);
-    let t438 = mul_add(base_rotation[2][1], base_velocity[5], t437);
-    let t439 = base_rotation[1][2] * base_velocity[4];
-    let t440 = mul_add(base_rotation[0][2], base_velocity[3], t439);
-    let t441 = mul_add(base_rotation[2][2], base_velocity[5], t440);
+    let t429 = base_rotation[1][0] * base_velocity[4];
+    let t430 = mul_add(base_rotation[0][0], base_velocity[3], t429);
+    let t431 = mul_add(base_rotation[2][0], base_velocity[5], t430);
+    let t432 = base_rotation[1][1] * base_velocity[4];
+    let t433 = mul_add(base_rotation[0][1], base_velocity[3], t432);
+    let t434 = mul_add(base_rotation[2][1], base_velocity[5], t433);
+    let t435 = base_rotation[1][2] * base_velocity[4];
+    let t436 = mul_add(base_rotation[0][2], base_velocity[3], t435);
+    let t437 = mul_add(base_rotation[2][2], base_velocity[5], t436);
     // angular velocity of the platform
-    let t442 = base_rotation[1][0] * platform_velocity[4];
-    let t443 = mul_add(base_rotation[0][0], platform_velocity[3], t442);
-    let t444 = mul_add(base_rotation[2][0], platform_velocity[5], t443);
-    let t445 = base_rotation[1][1] * platform_velocity[4];
-    let t446 = mul_add(base_rotation[0][1], platform_velocity[3], t445);
-    let t447 = mul_add(base_rotation[2][1], platform_velocity[5], t446);
-    let t448 = base_rotation[1][2] * platform_velocity[4];
-    let t449 = mul_add(base_rotation[0][2], platform_velocity[3], t448);
-    let t450 = mul_add(base_rotation[2][2], platform_velocity[5], t449);
+    let t438 = base_rotation[1][0] * platform_velocity[4];
+    let t439 = mul_add(base_rotation[0][0], platform_velocity[3], t438);
+    let t440 = mul_add(base_rotation[2][0], platform_velocity[5], t439);
+    let t441 = base_rotation[1][1] * platform_velocity[4];
+    let t442 = mul_add(base_rotation[0][1], platform_velocity[3], t441);
+    let t443 = mul_add(base_rotation[2][1], platform_velocity[5], t442);
+    let t444 = base_rotation[1][2] * platform_velocity[4];
+    let t445 = mul_add(base_rotation[0][2], platform_velocity[3], t444);
+    let t446 = mul_add(base_rotation[2][2], platform_velocity[5], t445);
     // angular velocity of the platform relative to the base
-    let t451 = t435 - t444;
-    let t452 = t438 - t447;
-    let t453 = t441 - t450;
+    let t447 = t431 - t440;
+    let t448 = t434 - t443;
+    let t449 = t437 - t446;
     // velocity of the platform origin relative to the base
-    let t454 = base_velocity[2] - platform_velocity[2];
-    let t455 = base_velocity[0] - platform_velocity[0];
-    let t456 = base_velocity[1] - platform_velocity[1];
-    let t457 = mul_add(base_rotation[0][0], t455, base_rotation[1][0] * t456);
-    let t458 = mul_sub(t36, t438, mul_add(base_rotation[2][0], t454, t457));
-    let t459 = mul_sub(t34, t441, t458);
-    let t460 = mul_add(base_rotation[0][1], t455, base_rotation[1][1] * t456);
-    let t461 = mul_sub(t32, t441, mul_add(base_rotation[2][1], t454, t460));
-    let t462 = mul_sub(t36, t435, t461);
-    let t463 = mul_add(base_rotation[0][2], t455, base_rotation[1][2] * t456);
-    let t464 = mul_sub(t34, t435, mul_add(base_rotation[2][2], t454, t463));
-    let t465 = mul_sub(t32, t438, t464);
+    let t450 = base_velocity[2] - platform_velocity[2];
+    let t451 = base_velocity[0] - platform_velocity[0];
+    let t452 = base_velocity[1] - platform_velocity[1];
+    let t453 = mul_add(base_rotation[0][0], t451, base_rotation[1][0] * t452);
+    let t454 = mul_sub(t36, t434, mul_add(base_rotation[2][0], t450, t453));
+    let t455 = mul_sub(t34, t437, t454);
+    let t456 = mul_add(base_rotation[0][1], t451, base_rotation[1][1] * t452);
+    let t457 = mul_sub(t32, t437, mul_add(base_rotation[2][1], t450, t456));
+    let t458 = mul_sub(t36, t431, t457);
+    let t459 = mul_add(base_rotation[0][2], t451, base_rotation[1][2] * t452);
+    let t460 = mul_sub(t34, t431, mul_add(base_rotation[2][2], t450, t459));
+    let t461 = mul_sub(t32, t434, t460);
     // leg 1: velocity of the platform joint relative to the base
-    let t466 = mul_sub(t40, t453, mul_add(t42, t452, t459));
-    let t467 = mul_sub(t42, t451, mul_add(t38, t453, t462));
-    let t468 = mul_sub(t38, t452, mul_add(t40, t451, t465));
+    let t462 = mul_sub(t40, t449, mul_add(t42, t448, t455));
+    let t463 = mul_sub(t42, t447, mul_add(t38, t449, t458));
+    let t464 = mul_sub(t38, t448, mul_add(t40, t447, t461));
     // leg 2: velocity of the platform joint relative to the base
-    let t469 = mul_sub(t53, t453, mul_add(t54, t452, t459));
-    let t470 = mul_sub(t54, t451, mul_add(t52, t453, t462));
-    let t471 = mul_sub(t52, t452, mul_add(t53, t451, t465));
+    let t465 = mul_sub(t53, t449, mul_add(t54, t448, t455));
+    let t466 = mul_sub(t54, t447, mul_add(t52, t449, t458));
+    let t467 = mul_sub(t52, t448, mul_add(t53, t447, t461));
     // leg 3: velocity of the platform joint relative to the base
-    let t472 = mul_add(t63, t453, neg_mul_add(t65, t452, t459));
-    let t473 = mul_add(t65, t451, neg_mul_add(t61, t453, t462));
-    let t474 = mul_add(t61, t452, neg_mul_add(t63, t451, t465));
+    let t468 = mul_add(t63, t449, neg_mul_add(t65, t448, t455));
+    let t469 = mul_add(t65, t447, neg_mul_add(t61, t449, t458));
+    let t470 = mul_add(t61, t448, neg_mul_add(t63, t447, t461));
     // leg 4: velocity of the platform joint relative to the base
-    let t475 = mul_add(t78, t453, neg_mul_add(t80, t452, t459));
-    let t476 = mul_add(t80, t451, neg_mul_add(t76, t453, t462));
-    let t477 = mul_add(t76, t452, neg_mul_add(t78, t451, t465));
+    let t471 = mul_add(t78, t449, neg_mul_add(t80, t448, t455));
+    let t472 = mul_add(t80, t447, neg_mul_add(t76, t449, t458));
+    let t473 = mul_add(t76, t448, neg_mul_add(t78, t447, t461));
     // leg 5: velocity of the platform joint relative to the base
-    let t478 = mul_add(t91, t453, neg_mul_add(t92, t452, t459));
-    let t479 = mul_add(t92, t451, neg_mul_add(t90, t453, t462));
-    let t480 = mul_add(t90, t452, neg_mul_add(t91, t451, t465));
+    let t474 = mul_add(t91, t449, neg_mul_add(t92, t448, t455));
+    let t475 = mul_add(t92, t447, neg_mul_add(t90, t449, t458));
+    let t476 = mul_add(t90, t448, neg_mul_add(t91, t447, t461));
     // leg 6: velocity of the platform joint relative to the base
-    let t481 = mul_add(t99, t453, neg_mul_add(t100, t452, t459));
-    let t482 = mul_add(t100, t451, neg_mul_add(t98, t453, t462));
-    let t483 = mul_add(t98, t452, neg_mul_add(t99, t451, t465));
+    let t477 = mul_add(t99, t449, neg_mul_add(t100, t448, t455));
+    let t478 = mul_add(t100, t447, neg_mul_add(t98, t449, t458));
+    let t479 = mul_add(t98, t448, neg_mul_add(t99, t447, t461));
     // leg 1: rate of the rod's extent along the actuator axis
-    let t484 = mul_add(t131, t467, mul_add(t130, t466, t468));
-    actuator_velocity[0] = t484;
-    let t485 = t468 - t484;
+    let t480 = mul_add(t131, t463, mul_add(t130, t462, t464));
+    actuator_velocity[0] = t480;
+    let t481 = t464 - t480;
     // leg 2: rate of the rod's extent along the actuator axis
-    let t486 = mul_add(t133, t470, neg_mul_add(t132, t469, t471));
-    actuator_velocity[1] = t486;
-    let t487 = t471 - t486;
+    let t482 = mul_add(t133, t466, neg_mul_add(t132, t465, t467));
+    actuator_velocity[1] = t482;
+    let t483 = t467 - t482;
     // leg 3: rate of the rod's extent along the actuator axis
-    let t488 = mul_sub(t135, t473, neg_mul_add(t134, t472, t474));
-    actuator_velocity[2] = t488;
-    let t489 = t474 + t488;
+    let t484 = mul_sub(t135, t469, neg_mul_add(t134, t468, t470));
+    actuator_velocity[2] = t484;
+    let t485 = t470 + t484;
     // leg 4: rate of the rod's extent along the actuator axis
-    let t490 = mul_sub(t137, t476, neg_mul_add(t136, t475, t477));
-    actuator_velocity[3] = t490;
-    let t491 = t477 + t490;
+    let t486 = mul_sub(t137, t472, neg_mul_add(t136, t471, t473));
+    actuator_velocity[3] = t486;
+    let t487 = t473 + t486;
     // leg 5: rate of the rod's extent along the actuator axis
-    let t492 = mul_sub(t139, t479, neg_mul_add(t138, t478, t480));
-    actuator_velocity[4] = t492;
-    let t493 = t480 + t492;
+    let t488 = mul_sub(t139, t475, neg_mul_add(t138, t474, t476));
+    actuator_velocity[4] = t488;
+    let t489 = t476 + t488;
     // leg 6: rate of the rod's extent along the actuator axis
-    let t494 = mul_sub(t141, t482, neg_mul_add(t140, t481, t483));
-    actuator_velocity[5] = t494;
-    let t495 = t483 + t494;
+    let t490 = mul_sub(t141, t478, neg_mul_add(t140, t477, t479));
+    actuator_velocity[5] = t490;
+    let t491 = t479 + t490;
     // acceleration of the base origin less gravity
-    let t496 = base_acceleration[2] + c(9.81);
-    let t497 = base_rotation[1][0] * base_acceleration[1];
-    let t498 = mul_add(base_rotation[0][0], base_acceleration[0], t497);
-    let t499 = mul_add(base_rotation[2][0], t496, t498);
-    let t500 = base_rotation[1][1] * base_acceleration[1];
-    let t501 = mul_add(base_rotation[0][1], base_acceleration[0], t500);
-    let t502 = mul_add(base_rotation[2][1], t496, t501);
+    let t492 = base_acceleration[2] + c(9.81);
+    let t493 = base_rotation[1][0] * base_acceleration[1];
+    let t494 = mul_add(base_rotation[0][0], base_acceleration[0], t493);
+    let t495 = mul_add(base_rotation[2][0], t492, t494);
+    let t496 = base_rotation[1][1] * base_acceleration[1];
+    let t497 = mul_add(base_rotation[0][1], base_acceleration[0], t496);
+    let t498 = mul_add(base_rotation[2][1], t492, t497);
     // angular acceleration of the base
-    let t503 = base_rotation[1][0] * base_acceleration[4];
-    let t504 = mul_add(base_rotation[0][0], base_acceleration[3], t503);
-    let t505 = mul_add(base_rotation[2][0], base_acceleration[5], t504);
-    let t506 = base_rotation[1][1] * base_acceleration[4];
-    let t507 = mul_add(base_rotation[0][1], base_acceleration[3], t506);
-    let t508 = mul_add(base_rotation[2][1], base_acceleration[5], t507);
-    let t509 = base_rotation[1][2] * base_acceleration[4];
-    let t510 = mul_add(base_rotation[0][2], base_acceleration[3], t509);
-    let t511 = mul_add(base_rotation[2][2], base_acceleration[5], t510);
+    let t499 = base_rotation[1][0] * base_acceleration[4];
+    let t500 = mul_add(base_rotation[0][0], base_acceleration[3], t499);
+    let t501 = mul_add(base_rotation[2][0], base_acceleration[5], t500);
+    let t502 = base_rotation[1][1] * base_acceleration[4];
+    let t503 = mul_add(base_rotation[0][1], base_acceleration[3], t502);
+    let t504 = mul_add(base_rotation[2][1], base_acceleration[5], t503);
+    let t505 = base_rotation[1][2] * base_acceleration[4];
+    let t506 = mul_add(base_rotation[0][2], base_acceleration[3], t505);
+    let t507 = mul_add(base_rotation[2][2], base_acceleration[5], t506);
     // acceleration per base coordinate of points that move with the base
-    let t512 = mul_add(t438, t438, t441 * t441);
-    let t513 = neg_mul_add(t435, t438, t511);
-    let t514 = mul_add(t435, t441, t508);
-    let t515 = mul_add(t435, t438, t511);
-    let t516 = t435 * t435;
-    let t517 = mul_add(t441, t441, t516);
-    let t518 = neg_mul_add(t438, t441, t505);
-    let t519 = neg_mul_add(t435, t441, t508);
-    let t520 = mul_add(t438, t441, t505);
-    let t521 = mul_add(t438, t438, t516);
+    let t508 = mul_add(t434, t434, t437 * t437);
+    let t509 = neg_mul_add(t431, t434, t507);
+    let t510 = mul_add(t431, t437, t504);
+    let t511 = mul_add(t431, t434, t507);
+    let t512 = t431 * t431;
+    let t513 = mul_add(t437, t437, t512);
+    let t514 = neg_mul_add(t434, t437, t501);
+    let t515 = neg_mul_add(t431, t437, t504);
+    let t516 = mul_add(t434, t437, t501);
+    let t517 = mul_add(t434, t434, t512);
     // acceleration per platform coordinate of points of the platform
-    let t522 = mul_sub(t12, t444, t3 * t447);
-    let t523 = mul_sub(t3, t450, t21 * t444);
-    let t524 = t450 * t523;
-    let t525 = mul_sub(t15, t444, t6 * t447);
-    let t526 = mul_sub(t6, t450, t24 * t444);
-    let t527 = t450 * t526;
-    let t528 = mul_sub(t18, t444, t9 * t447);
-    let t529 = mul_sub(t9, t450, t27 * t444);
-    let t530 = mul_sub(t447, t528, t450 * t529);
-    let t531 = mul_sub(t21, t447, t12 * t450);
-    let t532 = t444 * t522;
-    let t533 = mul_sub(t24, t447, t15 * t450);
-    let t534 = t444 * t525;
-    let t535 = mul_sub(t27, t447, t18 * t450);
-    let t536 = mul_sub(t450, t535, t444 * t528);
-    let t537 = mul_sub(t444, t523, t447 * t531);
-    let t538 = mul_sub(t444, t526, t447 * t533);
-    let t539 = mul_sub(t444, t529, t447 * t535);
+    let t518 = mul_sub(t12, t440, t3 * t443);
+    let t519 = mul_sub(t3, t446, t21 * t440);
+    let t520 = t446 * t519;
+    let t521 = mul_sub(t15, t440, t6 * t443);
+    let t522 = mul_sub(t6, t446, t24 * t440);
+    let t523 = t446 * t522;
+    let t524 = mul_sub(t18, t440, t9 * t443);
+    let t525 = mul_sub(t9, t446, t27 * t440);
+    let t526 = mul_sub(t443, t524, t446 * t525);
+    let t527 = mul_sub(t21, t443, t12 * t446);
+    let t528 = t440 * t518;
+    let t529 = mul_sub(t24, t443, t15 * t446);
+    let t530 = t440 * t521;
+    let t531 = mul_sub(t27, t443, t18 * t446);
+    let t532 = mul_sub(t446, t531, t440 * t524);
+    let t533 = mul_sub(t440, t519, t443 * t527);
+    let t534 = mul_sub(t440, t522, t443 * t529);
+    let t535 = mul_sub(t440, t525, t443 * t531);
     // acceleration of the platform origin relative to the base, less w x v
-    let t540 = t438 + t447;
-    let t541 = t441 + t450;
-    let t542 = mul_add(t32, t512, neg_mul_add(base_rotation[2][0], c(9.81), t499));
-    let t543 = mul_sub(t36, t514, mul_add(t34, t513, t542));
-    let t544 = mul_sub(t462, t541, mul_add(t465, t540, t543));
-    let t545 = t435 + t444;
-    let t546 = mul_sub(t32, t515, neg_mul_add(base_rotation[2][1], c(9.81), t502));
-    let t547 = mul_add(t36, t518, mul_sub(t34, t517, t546));
-    let t548 = mul_sub(t465, t545, mul_sub(t459, t541, t547));
+    let t536 = t434 + t443;
+    let t537 = t437 + t446;
+    let t538 = mul_add(t32, t508, neg_mul_add(base_rotation[2][0], c(9.81), t495));
+    let t539 = mul_sub(t36, t510, mul_add(t34, t509, t538));
+    let t540 = mul_sub(t458, t537, mul_add(t461, t536, t539));
+    let t541 = t431 + t440;
+    let t542 = mul_sub(t32, t511, neg_mul_add(base_rotation[2][1], c(9.81), t498));
+    let t543 = mul_add(t36, t514, mul_sub(t34, t513, t542));
+    let t544 = mul_sub(t461, t541, mul_sub(t455, t537, t543));
     // rate of that angular velocity
-    let t549 = mul_add(t441, t452, neg_mul_add(t438, t453, t505));
-    let t550 = mul_add(t435, t453, neg_mul_add(t441, t451, t508));
-    let t551 = mul_add(t438, t451, neg_mul_add(t435, t452, t511));
+    let t545 = mul_add(t437, t448, neg_mul_add(t434, t449, t501));
+    let t546 = mul_add(t431, t449, neg_mul_add(t437, t447, t504));
+    let t547 = mul_add(t434, t447, neg_mul_add(t431, t448, t507));
     // leg 1: acceleration of the platform joint relative to the base
-    let t552 = mul_sub(t40, t551, mul_add(t42, t550, t544));
-    let t553 = mul_sub(t453, t467, mul_sub(t452, t468, t552));
-    let t554 = mul_sub(t42, t549, mul_add(t38, t551, t548));
-    let t555 = mul_sub(t451, t468, mul_sub(t453, t466, t554));
+    let t548 = mul_sub(t40, t547, mul_add(t42, t546, t540));
+    let t549 = mul_sub(t449, t463, mul_sub(t448, t464, t548));
+    let t550 = mul_sub(t42, t545, mul_add(t38, t547, t544));
+    let t551 = mul_sub(t447, t464, mul_sub(t449, t462, t550));
     // leg 2: acceleration of the platform joint relative to the base
-    let t556 = mul_sub(t53, t551, mul_add(t54, t550, t544));
-    let t557 = mul_sub(t453, t470, mul_sub(t452, t471, t556));
-    let t558 = mul_sub(t54, t549, mul_add(t52, t551, t548));
-    let t559 = mul_sub(t451, t471, mul_sub(t453, t469, t558));
+    let t552 = mul_sub(t53, t547, mul_add(t54, t546, t540));
+    let t553 = mul_sub(t449, t466, mul_sub(t448, t467, t552));
+    let t554 = mul_sub(t54, t545, mul_add(t52, t547, t544));
+    let t555 = mul_sub(t447, t467, mul_sub(t449, t465, t554));
     // leg 3: acceleration of the platform joint relative to the base
-    let t560 = mul_add(t63, t551, neg_mul_add(t65, t550, t544));
-    let t561 = mul_sub(t453, t473, mul_sub(t452, t474, t560));
-    let t562 = mul_add(t65, t549, neg_mul_add(t61, t551, t548));
-    let t563 = mul_sub(t451, t474, mul_sub(t453, t472, t562));
+    let t556 = mul_add(t63, t547, neg_mul_add(t65, t546, t540));
+    let t557 = mul_sub(t449, t469, mul_sub(t448, t470, t556));
+    let t558 = mul_add(t65, t545, neg_mul_add(t61, t547, t544));
+    let t559 = mul_sub(t447, t470, mul_sub(t449, t468, t558));
     // leg 4: acceleration of the platform joint relative to the base
-    let t564 = mul_add(t78, t551, neg_mul_add(t80, t550, t544));
-    let t565 = mul_sub(t453, t476, mul_sub(t452, t477, t564));
-    let t566 = mul_add(t80, t549, neg_mul_add(t76, t551, t548));
-    let t567 = mul_sub(t451, t477, mul_sub(t453, t475, t566));
+    let t560 = mul_add(t78, t547, neg_mul_add(t80, t546, t540));
+    let t561 = mul_sub(t449, t472, mul_sub(t448, t473, t560));
+    let t562 = mul_add(t80, t545, neg_mul_add(t76, t547, t544));
+    let t563 = mul_sub(t447, t473, mul_sub(t449, t471, t562));
     // leg 5: acceleration of the platform joint relative to the base
-    let t568 = mul_add(t91, t551, neg_mul_add(t92, t550, t544));
-    let t569 = mul_sub(t453, t479, mul_sub(t452, t480, t568));
-    let t570 = mul_add(t92, t549, neg_mul_add(t90, t551, t548));
-    let t571 = mul_sub(t451, t480, mul_sub(t453, t478, t570));
+    let t564 = mul_add(t91, t547, neg_mul_add(t92, t546, t540));
+    let t565 = mul_sub(t449, t475, mul_sub(t448, t476, t564));
+    let t566 = mul_add(t92, t545, neg_mul_add(t90, t547, t544));
+    let t567 = mul_sub(t447, t476, mul_sub(t449, t474, t566));
     // leg 6: acceleration of the platform joint relative to the base
-    let t572 = mul_add(t99, t551, neg_mul_add(t100, t550, t544));
-    let t573 = mul_sub(t453, t482, mul_sub(t452, t483, t572));
-    let t574 = mul_add(t100, t549, neg_mul_add(t98, t551, t548));
-    let t575 = mul_sub(t451, t483, mul_sub(t453, t481, t574));
+    let t568 = mul_add(t99, t547, neg_mul_add(t100, t546, t540));
+    let t569 = mul_sub(t449, t478, mul_sub(t448, t479, t568));
+    let t570 = mul_add(t100, t545, neg_mul_add(t98, t547, t544));
+    let t571 = mul_sub(t447, t479, mul_sub(t449, t477, t570));
     // leg 1: actuator acceleration d''
-    let t576 = mul_add(t485, t485, mul_add(t466, t466, t467 * t467));
+    let t572 = mul_add(t481, t481, mul_add(t462, t462, t463 * t463));
     // leg 2: actuator acceleration d''
-    let t577 = mul_add(t487, t487, mul_add(t469, t469, t470 * t470));
+    let t573 = mul_add(t483, t483, mul_add(t465, t465, t466 * t466));
     // leg 3: actuator acceleration d''
-    let t578 = mul_add(t489, t489, mul_add(t472, t472, t473 * t473));
+    let t574 = mul_add(t485, t485, mul_add(t468, t468, t469 * t469));
     // leg 4: actuator acceleration d''
-    let t579 = mul_add(t491, t491, mul_add(t475, t475, t476 * t476));
+    let t575 = mul_add(t487, t487, mul_add(t471, t471, t472 * t472));
     // leg 5: actuator acceleration d''
-    let t580 = mul_add(t493, t493, mul_add(t478, t478, t479 * t479));
+    let t576 = mul_add(t489, t489, mul_add(t474, t474, t475 * t475));
     // leg 6: actuator acceleration d''
-    let t581 = mul_add(t495, t495, mul_add(t481, t481, t482 * t482));
+    let t577 = mul_add(t491, t491, mul_add(t477, t477, t478 * t478));
     // leg 1: leg inertia less weight along the actuator
-    let t582 = c(2.0) * t484;
-    let t583 = t438 * t582;
-    let t584 = t435 * t582;
-    let t585 = mul_sub(t32, t519, base_rotation[2][2] * c(9.81));
-    let t586 = mul_sub(t36, t521, mul_sub(t34, t520, t585));
-    let t587 = mul_sub(t459, t540, mul_sub(t462, t545, t586));
-    let t588 = mul_add(c(0.1316436662914507), t519, t587);
-    let t589 = c(0.12275970481124972) * t520;
-    let t590 = mul_sub(t38, t550, mul_add(t40, t549, t589));
-    let t591 = mul_sub(t452, t466, mul_sub(t451, t467, t590));
-    let t592 = mul_add(t131, t555, mul_add(t130, t553, t591));
-    let t593 = t588 - mul_add(t109, t521, mul_add(t108, t576, t592));
+    let t578 = c(2.0) * t480;
+    let t579 = t434 * t578;
+    let t580 = t431 * t578;
+    let t581 = mul_sub(t32, t515, base_rotation[2][2] * c(9.81));
+    let t582 = mul_sub(t36, t517, mul_sub(t34, t516, t581));
+    let t583 = mul_sub(t455, t536, mul_sub(t458, t541, t582));
+    let t584 = mul_add(c(0.1316436662914507), t515, t583);
+    let t585 = c(0.12275970481124972) * t516;
+    let t586 = mul_sub(t38, t546, mul_add(t40, t545, t585));
+    let t587 = mul_sub(t448, t462, mul_sub(t447, t463, t586));
+    let t588 = mul_add(t131, t551, mul_add(t130, t549, t587));
+    let t589 = t584 - mul_add(t109, t517, mul_add(t108, t572, t588));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t594 = c(0.17066666666666666) * t499;
-    let t595 = neg_mul_add(t512, c(0.022467185713740918), t594);
+    let t590 = c(0.17066666666666666) * t495;
+    let t591 = neg_mul_add(t508, c(0.022467185713740918), t590);
+    let t592 = mul_add(t509, c(0.02095098962111995), t591);
+    let t593 = neg_mul_add(c(0.17066666666666666), mul_sub(t109, t510, t579), t592);
+    let t594 = c(0.17066666666666666) * t498;
+    let t595 = mul_add(t511, c(0.022467185713740918), t594);
     let t596 = mul_add(t513, c(0.02095098962111995), t595);
-    let t597 = neg_mul_add(c(0.17066666666666666), mul_sub(t109, t514, t583), t596);
-    let t598 = c(0.17066666666666666) * t502;
-    let t599 = mul_add(t515, c(0.022467185713740918), t598);
-    let t600 = mul_add(t517, c(0.02095098962111995), t599);
-    let t601 = mul_add(c(0.17066666666666666), mul_sub(t109, t518, t584), t600);
-    let t602 = c(0.17066666666666666) * t593;
+    let t597 = mul_add(c(0.17066666666666666), mul_sub(t109, t514, t580), t596);
+    let t598 = c(0.17066666666666666) * t589;
     // leg 2: leg inertia less weight along the actuator
-    let t603 = c(2.0) * t486;
-    let t604 = t438 * t603;
-    let t605 = t435 * t603;
-    let t606 = mul_sub(t52, t550, mul_sub(t53, t549, t589));
-    let t607 = mul_sub(t452, t469, mul_sub(t451, t470, t606));
-    let t608 = mul_sub(t133, t559, mul_sub(t132, t557, t607));
-    let t609 = mul_sub(t113, t521, t588 - mul_add(t112, t577, t608));
+    let t599 = c(2.0) * t482;
+    let t600 = t434 * t599;
+    let t601 = t431 * t599;
+    let t602 = mul_sub(t52, t546, mul_sub(t53, t545, t585));
+    let t603 = mul_sub(t448, t465, mul_sub(t447, t466, t602));
+    let t604 = mul_sub(t133, t555, mul_sub(t132, t553, t603));
+    let t605 = mul_sub(t113, t517, t584 - mul_add(t112, t573, t604));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t610 = neg_mul_add(t513, c(0.02095098962111995), t595);
-    let t611 = neg_mul_add(c(0.17066666666666666), mul_sub(t113, t514, t604), t610);
-    let t612 = neg_mul_add(t517, c(0.02095098962111995), t599);
-    let t613 = mul_add(c(0.17066666666666666), mul_sub(t113, t518, t605), t612);
-    let t614 = c(0.17066666666666666) * t609;
+    let t606 = neg_mul_add(t509, c(0.02095098962111995), t591);
+    let t607 = neg_mul_add(c(0.17066666666666666), mul_sub(t113, t510, t600), t606);
+    let t608 = neg_mul_add(t513, c(0.02095098962111995), t595);
+    let t609 = mul_add(c(0.17066666666666666), mul_sub(t113, t514, t601), t608);
+    let t610 = c(0.17066666666666666) * t605;
     // leg 3: leg inertia less weight along the actuator
-    let t615 = c(2.0) * t488;
-    let t616 = t438 * t615;
-    let t617 = t435 * t615;
-    let t618 = mul_add(c(0.040491189781895726), t519, t587);
-    let t619 = c(0.17538661166134234) * t520;
-    let t620 = mul_sub(t61, t550, mul_add(t63, t549, t619));
-    let t621 = mul_sub(t452, t472, mul_sub(t451, t473, t620));
-    let t622 = mul_add(t135, t563, mul_sub(t134, t561, t621));
-    let t623 = t618 - mul_add(t117, t521, mul_add(t116, t578, t622));
+    let t611 = c(2.0) * t484;
+    let t612 = t434 * t611;
+    let t613 = t431 * t611;
+    let t614 = mul_add(c(0.040491189781895726), t515, t583);
+    let t615 = c(0.17538661166134234) * t516;
+    let t616 = mul_sub(t61, t546, mul_add(t63, t545, t615));
+    let t617 = mul_sub(t448, t468, mul_sub(t447, t469, t616));
+    let t618 = mul_add(t135, t559, mul_sub(t134, t557, t617));
+    let t619 = t614 - mul_add(t117, t517, mul_add(t116, t574, t618));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t624 = neg_mul_add(t512, c(0.006910496389443537), t594);
-    let t625 = neg_mul_add(t513, c(0.029932648390202425), t624);
-    let t626 = neg_mul_add(c(0.17066666666666666), mul_sub(t117, t514, t616), t625);
-    let t627 = mul_add(t515, c(0.006910496389443537), t598);
-    let t628 = neg_mul_add(t517, c(0.029932648390202425), t627);
-    let t629 = mul_add(c(0.17066666666666666), mul_sub(t117, t518, t617), t628);
-    let t630 = c(0.17066666666666666) * t623;
+    let t620 = neg_mul_add(t508, c(0.006910496389443537), t590);
+    let t621 = neg_mul_add(t509, c(0.029932648390202425), t620);
+    let t622 = neg_mul_add(c(0.17066666666666666), mul_sub(t117, t510, t612), t621);
+    let t623 = mul_add(t511, c(0.006910496389443537), t594);
+    let t624 = neg_mul_add(t513, c(0.029932648390202425), t623);
+    let t625 = mul_add(c(0.17066666666666666), mul_sub(t117, t514, t613), t624);
+    let t626 = c(0.17066666666666666) * t619;
     // leg 4: leg inertia less weight along the actuator
-    let t631 = c(2.0) * t490;
-    let t632 = t438 * t631;
-    let t633 = t435 * t631;
-    let t634 = neg_mul_add(c(0.17213485607334636), t519, t587);
-    let t635 = c(0.052626906850092664) * t520;
-    let t636 = mul_sub(t76, t550, mul_add(t78, t549, t635));
-    let t637 = mul_sub(t452, t475, mul_sub(t451, t476, t636));
-    let t638 = mul_add(t137, t567, mul_sub(t136, t565, t637));
-    let t639 = t634 - mul_add(t121, t521, mul_add(t120, t579, t638));
+    let t627 = c(2.0) * t486;
+    let t628 = t434 * t627;
+    let t629 = t431 * t627;
+    let t630 = neg_mul_add(c(0.17213485607334636), t515, t583);
+    let t631 = c(0.052626906850092664) * t516;
+    let t632 = mul_sub(t76, t546, mul_add(t78, t545, t631));
+    let t633 = mul_sub(t448, t471, mul_sub(t447, t472, t632));
+    let t634 = mul_add(t137, t563, mul_sub(t136, t561, t633));
+    let t635 = t630 - mul_add(t121, t517, mul_add(t120, t575, t634));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t640 = mul_add(t512, c(0.029377682103184446), t594);
-    let t641 = neg_mul_add(t513, c(0.008981658769082482), t640);
-    let t642 = neg_mul_add(c(0.17066666666666666), mul_sub(t121, t514, t632), t641);
-    let t643 = neg_mul_add(t515, c(0.029377682103184446), t598);
-    let t644 = neg_mul_add(t517, c(0.008981658769082482), t643);
-    let t645 = mul_add(c(0.17066666666666666), mul_sub(t121, t518, t633), t644);
-    let t646 = c(0.17066666666666666) * t639;
+    let t636 = mul_add(t508, c(0.029377682103184446), t590);
+    let t637 = neg_mul_add(t509, c(0.008981658769082482), t636);
+    let t638 = neg_mul_add(c(0.17066666666666666), mul_sub(t121, t510, t628), t637);
+    let t639 = neg_mul_add(t511, c(0.029377682103184446), t594);
+    let t640 = neg_mul_add(t513, c(0.008981658769082482), t639);
+    let t641 = mul_add(c(0.17066666666666666), mul_sub(t121, t514, t629), t640);
+    let t642 = c(0.17066666666666666) * t635;
     // leg 5: leg inertia less weight along the actuator
-    let t647 = c(2.0) * t492;
-    let t648 = t438 * t647;
-    let t649 = t435 * t647;
-    let t650 = mul_sub(t90, t550, mul_sub(t91, t549, t635));
-    let t651 = mul_sub(t452, t478, mul_sub(t451, t479, t650));
-    let t652 = mul_add(t139, t571, mul_sub(t138, t569, t651));
-    let t653 = mul_sub(t125, t521, t634 - mul_add(t124, t580, t652));
+    let t643 = c(2.0) * t488;
+    let t644 = t434 * t643;
+    let t645 = t431 * t643;
+    let t646 = mul_sub(t90, t546, mul_sub(t91, t545, t631));
+    let t647 = mul_sub(t448, t474, mul_sub(t447, t475, t646));
+    let t648 = mul_add(t139, t567, mul_sub(t138, t565, t647));
+    let t649 = mul_sub(t125, t517, t630 - mul_add(t124, t576, t648));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t654 = mul_add(t513, c(0.008981658769082482), t640);
-    let t655 = neg_mul_add(c(0.17066666666666666), mul_sub(t125, t514, t648), t654);
-    let t656 = mul_add(t517, c(0.008981658769082482), t643);
-    let t657 = mul_add(c(0.17066666666666666), mul_sub(t125, t518, t649), t656);
-    let t658 = c(0.17066666666666666) * t653;
+    let t650 = mul_add(t509, c(0.008981658769082482), t636);
+    let t651 = neg_mul_add(c(0.17066666666666666), mul_sub(t125, t510, t644), t650);
+    let t652 = mul_add(t513, c(0.008981658769082482), t639);
+    let t653 = mul_add(c(0.17066666666666666), mul_sub(t125, t514, t645), t652);
+    let t654 = c(0.17066666666666666) * t649;
     // leg 6: leg inertia less weight along the actuator
-    let t659 = c(2.0) * t494;
-    let t660 = t438 * t659;
-    let t661 = t435 * t659;
-    let t662 = mul_sub(t98, t550, mul_sub(t99, t549, t619));
-    let t663 = mul_sub(t452, t481, mul_sub(t451, t482, t662));
-    let t664 = mul_add(t141, t575, mul_sub(t140, t573, t663));
-    let t665 = mul_sub(t129, t521, t618 - mul_add(t128, t581, t664));
+    let t655 = c(2.0) * t490;
+    let t656 = t434 * t655;
+    let t657 = t431 * t655;
+    let t658 = mul_sub(t98, t546, mul_sub(t99, t545, t615));
+    let t659 = mul_sub(t448, t477, mul_sub(t447, t478, t658));
+    let t660 = mul_add(t141, t571, mul_sub(t140, t569, t659));
+    let t661 = mul_sub(t129, t517, t614 - mul_add(t128, t577, t660));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t666 = mul_add(t513, c(0.029932648390202425), t624);
-    let t667 = neg_mul_add(c(0.17066666666666666), mul_sub(t129, t514, t660), t666);
-    let t668 = mul_add(t517, c(0.029932648390202425), t627);
-    let t669 = mul_add(c(0.17066666666666666), mul_sub(t129, t518, t661), t668);
-    let t670 = c(0.17066666666666666) * t665;
+    let t662 = mul_add(t509, c(0.029932648390202425), t620);
+    let t663 = neg_mul_add(c(0.17066666666666666), mul_sub(t129, t510, t656), t662);
+    let t664 = mul_add(t513, c(0.029932648390202425), t623);
+    let t665 = mul_add(c(0.17066666666666666), mul_sub(t129, t514, t657), t664);
+    let t666 = c(0.17066666666666666) * t661;
     // leg 1: moment about the platform origin of the leg's inertia at its joint
-    let t671 = t42 * t601;
-    let t672 = t38 * t602;
-    let t673 = t40 * t597;
+    let t667 = t42 * t597;
+    let t668 = t38 * t598;
+    let t669 = t40 * t593;
     // inertia force less weight, without the actuators' own shares
-    let t674 = t597 + mul_add(base_rotation[2][0], c(79.8534), c(0.188852) * t530);
-    let t675 = t667 + (t655 + (t642 + (t626 + (t611 + t674))));
-    let t676 = t601 + mul_add(base_rotation[2][1], c(79.8534), c(0.188852) * t536);
-    let t677 = t669 + (t657 + (t645 + (t629 + (t613 + t676))));
-    let t678 = mul_add(base_rotation[2][2], c(79.8534), c(0.188852) * t539);
-    let t679 = mul_sub(c(0.17066666666666666), t593, t678);
-    let t680 = mul_sub(c(0.17066666666666666), t609, t679);
-    let t681 = mul_sub(c(0.17066666666666666), t623, t680);
-    let t682 = mul_add(c(0.17066666666666666), t639, t681);
-    let t683 = mul_sub(c(0.17066666666666666), t653, t682);
-    let t684 = mul_add(c(0.17066666666666666), t665, t683);
+    let t670 = t593 + mul_add(base_rotation[2][0], c(79.8534), c(0.188852) * t526);
+    let t671 = t663 + (t651 + (t638 + (t622 + (t607 + t670))));
+    let t672 = t597 + mul_add(base_rotation[2][1], c(79.8534), c(0.188852) * t532);
+    let t673 = t665 + (t653 + (t641 + (t625 + (t609 + t672))));
+    let t674 = mul_add(base_rotation[2][2], c(79.8534), c(0.188852) * t535);
+    let t675 = mul_sub(c(0.17066666666666666), t589, t674);
+    let t676 = mul_sub(c(0.17066666666666666), t605, t675);
+    let t677 = mul_sub(c(0.17066666666666666), t619, t676);
+    let t678 = mul_add(c(0.17066666666666666), t635, t677);
+    let t679 = mul_sub(c(0.17066666666666666), t649, t678);
+    let t680 = mul_add(c(0.17066666666666666), t661, t679);
     // first moments by platform coordinate of the payload's inertia force
-    let t685 = c(0.032245600000000006) * mul_sub(t447, t522, t524);
-    let t686 = c(0.032245600000000006) * mul_sub(t447, t525, t527);
-    let t687 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t530);
-    let t688 = c(0.032245600000000006) * mul_sub(t450, t531, t532);
-    let t689 = c(0.032245600000000006) * mul_sub(t450, t533, t534);
-    let t690 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t536);
-    let t691 = c(0.032245600000000006) * t537;
-    let t692 = c(0.032245600000000006) * t538;
-    let t693 = mul_add(base_rotation[2][2], c(1.85263812), c(0.013354412) * t539);
+    let t681 = c(0.032245600000000006) * mul_sub(t443, t518, t520);
+    let t682 = c(0.032245600000000006) * mul_sub(t443, t521, t523);
+    let t683 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t526);
+    let t684 = c(0.032245600000000006) * mul_sub(t446, t527, t528);
+    let t685 = c(0.032245600000000006) * mul_sub(t446, t529, t530);
+    let t686 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t532);
+    let t687 = c(0.032245600000000006) * t533;
+    let t688 = c(0.032245600000000006) * t534;
+    let t689 = mul_add(base_rotation[2][2], c(1.85263812), c(0.013354412) * t535);
     // moment of the inertia force about the platform origin
-    let t694 = mul_sub(t53, t614, mul_add(t40, t602, t671));
-    let t695 = mul_sub(t63, t630, mul_sub(t54, t613, t694));
-    let t696 = mul_add(t78, t646, mul_add(t65, t629, t695));
-    let t697 = mul_sub(t91, t658, mul_add(t80, t645, t696));
-    let t698 = mul_sub(t99, t670, mul_sub(t92, t657, t697));
-    let t699 = mul_add(t12, t691, mul_sub(t100, t669, t698));
-    let t700 = mul_sub(t15, t692, mul_sub(t21, t688, t699));
-    let t701 = mul_sub(t18, t693, mul_sub(t24, t689, t700));
-    let t702 = mul_sub(t27, t690, t701);
-    let t703 = mul_add(t54, t611, mul_add(t42, t597, t672));
-    let t704 = mul_add(t65, t626, mul_sub(t52, t614, t703));
-    let t705 = mul_add(t80, t642, mul_add(t61, t630, t704));
-    let t706 = mul_add(t92, t655, mul_add(t76, t646, t705));
-    let t707 = mul_sub(t100, t667, mul_sub(t90, t658, t706));
-    let t708 = mul_add(t21, t685, mul_sub(t98, t670, t707));
-    let t709 = mul_sub(t24, t686, mul_sub(t3, t691, t708));
-    let t710 = mul_sub(t27, t687, mul_sub(t6, t692, t709));
-    let t711 = mul_sub(t9, t693, t710);
-    let t712 = mul_add(t52, t613, mul_sub(t38, t601, t673));
-    let t713 = mul_add(t61, t629, mul_sub(t53, t611, t712));
-    let t714 = mul_sub(t76, t645, mul_sub(t63, t626, t713));
-    let t715 = mul_sub(t90, t657, mul_sub(t78, t642, t714));
-    let t716 = mul_sub(t98, t669, mul_sub(t91, t655, t715));
-    let t717 = mul_add(t3, t688, mul_sub(t99, t667, t716));
-    let t718 = mul_sub(t6, t689, mul_sub(t12, t685, t717));
-    let t719 = mul_sub(t9, t690, mul_sub(t15, t686, t718));
-    let t720 = mul_sub(t18, t687, t719);
+    let t690 = mul_sub(t53, t610, mul_add(t40, t598, t667));
+    let t691 = mul_sub(t63, t626, mul_sub(t54, t609, t690));
+    let t692 = mul_add(t78, t642, mul_add(t65, t625, t691));
+    let t693 = mul_sub(t91, t654, mul_add(t80, t641, t692));
+    let t694 = mul_sub(t99, t666, mul_sub(t92, t653, t693));
+    let t695 = mul_add(t12, t687, mul_sub(t100, t665, t694));
+    let t696 = mul_sub(t15, t688, mul_sub(t21, t684, t695));
+    let t697 = mul_sub(t18, t689, mul_sub(t24, t685, t696));
+    let t698 = mul_sub(t27, t686, t697);
+    let t699 = mul_add(t54, t607, mul_add(t42, t593, t668));
+    let t700 = mul_add(t65, t622, mul_sub(t52, t610, t699));
+    let t701 = mul_add(t80, t638, mul_add(t61, t626, t700));
+    let t702 = mul_add(t92, t651, mul_add(t76, t642, t701));
+    let t703 = mul_sub(t100, t663, mul_sub(t90, t654, t702));
+    let t704 = mul_add(t21, t681, mul_sub(t98, t666, t703));
+    let t705 = mul_sub(t24, t682, mul_sub(t3, t687, t704));
+    let t706 = mul_sub(t27, t683, mul_sub(t6, t688, t705));
+    let t707 = mul_sub(t9, t689, t706);
+    let t708 = mul_add(t52, t609, mul_sub(t38, t597, t669));
+    let t709 = mul_add(t61, t625, mul_sub(t53, t607, t708));
+    let t710 = mul_sub(t76, t641, mul_sub(t63, t622, t709));
+    let t711 = mul_sub(t90, t653, mul_sub(t78, t638, t710));
+    let t712 = mul_sub(t98, t665, mul_sub(t91, t651, t711));
+    let t713 = mul_add(t3, t684, mul_sub(t99, t663, t712));
+    let t714 = mul_sub(t6, t685, mul_sub(t12, t681, t713));
+    let t715 = mul_sub(t9, t686, mul_sub(t15, t682, t714));
+    let t716 = mul_sub(t18, t683, t715);
     // leg 1: force along the actuator that reaches the platform
-    let t721 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
-    let t722 = neg_mul_add(t521, c(0.03055), t721);
-    let t723 = neg_mul_add(t537, c(0.019782160922400118), t722);
-    let t724 = t538 * c(0.005300614043699624);
-    let t725 = mul_add(t593, c(0.9523333333333334), mul_add(c(21555.9), t109, t724));
-    let t726 = t723 + t725;
+    let t717 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
+    let t718 = neg_mul_add(t517, c(0.03055), t717);
+    let t719 = neg_mul_add(t533, c(0.019782160922400118), t718);
+    let t720 = t534 * c(0.005300614043699624);
+    let t721 = mul_add(c(0.9523333333333334), t589, mul_add(c(21555.9), t109, t720));
+    let t722 = t719 + t721;
     // leg 2: force along the actuator that reaches the platform
-    let t727 = neg_mul_add(c(21555.9), t113, t724);
-    let t728 = t723 - mul_add(t609, c(0.9523333333333334), t727);
+    let t723 = neg_mul_add(c(21555.9), t113, t720);
+    let t724 = t719 - mul_add(c(0.9523333333333334), t605, t723);
     // leg 3: force along the actuator that reaches the platform
-    let t729 = mul_add(t537, c(0.005300614043699622), t722);
-    let t730 = t538 * c(0.019782160922400118);
-    let t731 = mul_add(t623, c(0.9523333333333334), mul_sub(c(21555.9), t117, t730));
-    let t732 = t729 + t731;
+    let t725 = mul_add(t533, c(0.005300614043699622), t718);
+    let t726 = t534 * c(0.019782160922400118);
+    let t727 = mul_add(c(0.9523333333333334), t619, mul_sub(c(21555.9), t117, t726));
+    let t728 = t725 + t727;
     // leg 4: force along the actuator that reaches the platform
-    let t733 = mul_add(t537, c(0.01448154687870049), t722);
-    let t734 = t538 * c(0.014481546878700494);
-    let t735 = mul_add(t639, c(0.9523333333333334), mul_sub(c(21555.9), t121, t734));
-    let t736 = t733 + t735;
+    let t729 = mul_add(t533, c(0.01448154687870049), t718);
+    let t730 = t534 * c(0.014481546878700494);
+    let t731 = mul_add(c(0.9523333333333334), t635, mul_sub(c(21555.9), t121, t730));
+    let t732 = t729 + t731;
     // leg 5: force along the actuator that reaches the platform
-    let t737 = mul_add(c(21555.9), t125, t734);
-    let t738 = t733 + neg_mul_add(t653, c(0.9523333333333334), t737);
+    let t733 = mul_add(c(21555.9), t125, t730);
+    let t734 = t729 + neg_mul_add(c(0.9523333333333334), t649, t733);
     // leg 6: force along the actuator that reaches the platform
-    let t739 = mul_add(c(21555.9), t129, t730);
-    let t740 = t729 + neg_mul_add(t665, c(0.9523333333333334), t739);
+    let t735 = mul_add(c(21555.9), t129, t726);
+    let t736 = t725 + neg_mul_add(c(0.9523333333333334), t661, t735);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t741 = mul_add(base_rotation[0][0], t675, base_rotation[0][1] * t677);
-    let t742 = mul_sub(t143, t726, mul_add(base_rotation[0][2], t684, t741));
-    let t743 = mul_sub(t155, t732, mul_add(t149, t728, t742));
-    let t744 = mul_add(t167, t738, mul_add(t161, t736, t743));
-    let t745 = mul_add(t173, t740, t744);
-    total_bias[0] = t745;
-    let t746 = mul_add(base_rotation[1][0], t675, base_rotation[1][1] * t677);
-    let t747 = mul_sub(t145, t726, mul_add(base_rotation[1][2], t684, t746));
-    let t748 = mul_sub(t157, t732, mul_add(t151, t728, t747));
-    let t749 = mul_add(t169, t738, mul_add(t163, t736, t748));
-    let t750 = mul_add(t175, t740, t749);
-    total_bias[1] = t750;
-    let t751 = mul_add(base_rotation[2][0], t675, base_rotation[2][1] * t677);
-    let t752 = mul_sub(t147, t726, mul_add(base_rotation[2][2], t684, t751));
-    let t753 = mul_sub(t159, t732, mul_add(t153, t728, t752));
-    let t754 = mul_add(t171, t738, mul_add(t165, t736, t753));
-    let t755 = mul_add(t177, t740, t754);
-    total_bias[2] = t755;
-    let t756 = mul_add(base_rotation[0][0], t702, base_rotation[0][1] * t711);
-    let t757 = mul_add(t178, t726, mul_add(base_rotation[0][2], t720, t756));
-    let t758 = mul_add(t184, t732, mul_add(t181, t728, t757));
-    let t759 = mul_add(t190, t738, mul_add(t187, t736, t758));
-    let t760 = mul_add(t193, t740, t759);
-    let t761 = mul_add(base_rotation[1][0], t702, base_rotation[1][1] * t711);
-    let t762 = mul_add(t179, t726, mul_add(base_rotation[1][2], t720, t761));
-    let t763 = mul_add(t185, t732, mul_add(t182, t728, t762));
-    let t764 = mul_add(t191, t738, mul_add(t188, t736, t763));
-    let t765 = mul_add(t194, t740, t764);
-    let t766 = mul_add(base_rotation[2][0], t702, base_rotation[2][1] * t711);
-    let t767 = mul_add(t180, t726, mul_add(base_rotation[2][2], t720, t766));
-    let t768 = mul_add(t186, t732, mul_add(t183, t728, t767));
-    let t769 = mul_add(t192, t738, mul_add(t189, t736, t768));
-    let t770 = mul_add(t195, t740, t769);
-    total_bias[3] = -t760;
-    total_bias[4] = -t765;
-    total_bias[5] = -t770;
+    let t737 = mul_add(base_rotation[0][0], t671, base_rotation[0][1] * t673);
+    let t738 = mul_sub(t143, t722, mul_add(base_rotation[0][2], t680, t737));
+    let t739 = mul_sub(t155, t728, mul_add(t149, t724, t738));
+    let t740 = mul_add(t167, t734, mul_add(t161, t732, t739));
+    let t741 = mul_add(t173, t736, t740);
+    total_bias[0] = t741;
+    let t742 = mul_add(base_rotation[1][0], t671, base_rotation[1][1] * t673);
+    let t743 = mul_sub(t145, t722, mul_add(base_rotation[1][2], t680, t742));
+    let t744 = mul_sub(t157, t728, mul_add(t151, t724, t743));
+    let t745 = mul_add(t169, t734, mul_add(t163, t732, t744));
+    let t746 = mul_add(t175, t736, t745);
+    total_bias[1] = t746;
+    let t747 = mul_add(base_rotation[2][0], t671, base_rotation[2][1] * t673);
+    let t748 = mul_sub(t147, t722, mul_add(base_rotation[2][2], t680, t747));
+    let t749 = mul_sub(t159, t728, mul_add(t153, t724, t748));
+    let t750 = mul_add(t171, t734, mul_add(t165, t732, t749));
+    let t751 = mul_add(t177, t736, t750);
+    total_bias[2] = t751;
+    let t752 = mul_add(base_rotation[0][0], t698, base_rotation[0][1] * t707);
+    let t753 = mul_add(t178, t722, mul_add(base_rotation[0][2], t716, t752));
+    let t754 = mul_add(t184, t728, mul_add(t181, t724, t753));
+    let t755 = mul_add(t190, t734, mul_add(t187, t732, t754));
+    let t756 = mul_add(t193, t736, t755);
+    let t757 = mul_add(base_rotation[1][0], t698, base_rotation[1][1] * t707);
+    let t758 = mul_add(t179, t722, mul_add(base_rotation[1][2], t716, t757));
+    let t759 = mul_add(t185, t728, mul_add(t182, t724, t758));
+    let t760 = mul_add(t191, t734, mul_add(t188, t732, t759));
+    let t761 = mul_add(t194, t736, t760);
+    let t762 = mul_add(base_rotation[2][0], t698, base_rotation[2][1] * t707);
+    let t763 = mul_add(t180, t722, mul_add(base_rotation[2][2], t716, t762));
+    let t764 = mul_add(t186, t728, mul_add(t183, t724, t763));
+    let t765 = mul_add(t192, t734, mul_add(t189, t732, t764));
+    let t766 = mul_add(t195, t736, t765);
+    total_bias[3] = -t756;
+    total_bias[4] = -t761;
+    total_bias[5] = -t766;
     // inertia less external wrench that the actuators must balance
-    let t771 = mul_add(platform_acceleration[0], t345, external_wrench[0] - t745);
-    let t772 = mul_add(platform_acceleration[1], t271, t771);
-    let t773 = mul_add(platform_acceleration[2], t272, t772);
-    let t774 = mul_sub(platform_acceleration[3], t278, t773);
-    let t775 = mul_sub(platform_acceleration[4], t347, t774);
-    let t776 = mul_add(platform_acceleration[5], t349, t775);
-    let t777 = platform_rotation[1][2] * c(0.031);
-    let t778 = platform_rotation[2][2] * c(0.031);
-    let t779 = platform_rotation[0][2] * c(0.031);
+    let t767 = mul_add(platform_acceleration[0], t343, external_wrench[0] - t741);
+    let t768 = mul_add(platform_acceleration[1], t270, t767);
+    let t769 = mul_add(platform_acceleration[2], t271, t768);
+    let t770 = mul_sub(platform_acceleration[3], t277, t769);
+    let t771 = mul_sub(platform_acceleration[4], t345, t770);
+    let t772 = mul_add(platform_acceleration[5], t347, t771);
+    let t773 = platform_rotation[1][2] * c(0.031);
+    let t774 = platform_rotation[2][2] * c(0.031);
+    let t775 = platform_rotation[0][2] * c(0.031);
     // force along the actuator that balances the remaining wrench
-    let t780 = c(1.0) / t173;
-    let t781 = t193 * t780;
-    let t782 = mul_sub(platform_acceleration[0], t278, external_wrench[3] + t760);
-    let t783 = mul_sub(platform_acceleration[1], t354, t782);
-    let t784 = mul_add(platform_acceleration[2], t361, t783);
-    let t785 = mul_add(platform_acceleration[3], t375, t784);
-    let t786 = mul_add(platform_acceleration[4], t383, t785);
-    let t787 = mul_add(platform_acceleration[5], t391, t786);
-    let t788 = mul_add(external_wrench[2], t777, t787);
-    let t789 = mul_sub(t776, t781, mul_sub(external_wrench[1], t778, t788));
-    let t790 = t195 * t780;
-    let t791 = c(1.0) / neg_mul_add(t167, t781, t190);
-    let t792 = neg_mul_add(t167, t790, t192) * t791;
-    let t793 = mul_add(platform_acceleration[0], t349, external_wrench[5] + t770);
-    let t794 = mul_add(platform_acceleration[1], t356, t793);
-    let t795 = mul_add(platform_acceleration[2], t335, t794);
-    let t796 = mul_add(platform_acceleration[3], t391, t795);
-    let t797 = mul_add(platform_acceleration[4], t411, t796);
-    let t798 = mul_add(platform_acceleration[5], t423, t797);
-    let t799 = mul_add(external_wrench[1], t779, t798);
-    let t800 = mul_sub(t776, t790, mul_sub(external_wrench[0], t777, t799));
-    let t801 = mul_sub(t789, t792, t800);
-    let t802 = neg_mul_add(t161, t781, t187);
-    let t803 = t177 * t780;
-    let t804 = neg_mul_add(t167, t803, t171) * t791;
-    let t805 = c(1.0) / mul_sub(t802, t792, neg_mul_add(t161, t790, t189));
-    let t806 = mul_sub(t802, t804, neg_mul_add(t161, t803, t165)) * t805;
-    let t807 = mul_add(platform_acceleration[0], t272, external_wrench[2] - t755);
-    let t808 = mul_add(platform_acceleration[1], t291, t807);
-    let t809 = mul_add(platform_acceleration[2], t359, t808);
-    let t810 = mul_add(platform_acceleration[3], t361, t809);
-    let t811 = mul_add(platform_acceleration[4], t363, t810);
-    let t812 = mul_sub(t776, t803, mul_add(platform_acceleration[5], t335, t811));
-    let t813 = mul_sub(t801, t806, mul_sub(t789, t804, t812));
-    let t814 = neg_mul_add(t155, t781, t184);
-    let t815 = mul_sub(t814, t792, neg_mul_add(t155, t790, t186));
-    let t816 = t194 * t780;
-    let t817 = neg_mul_add(t167, t816, t191) * t791;
-    let t818 = mul_sub(t802, t817, neg_mul_add(t161, t816, t188)) * t805;
-    let t819 = mul_sub(t814, t817, neg_mul_add(t155, t816, t185));
-    let t820 = mul_sub(t814, t804, neg_mul_add(t155, t803, t159));
-    let t821 = c(1.0) / mul_sub(t815, t806, t820);
-    let t822 = mul_sub(t815, t818, t819) * t821;
-    let t823 = mul_add(platform_acceleration[0], t347, external_wrench[4] + t765);
-    let t824 = mul_sub(platform_acceleration[1], t310, t823);
-    let t825 = mul_sub(platform_acceleration[2], t363, t824);
-    let t826 = mul_add(platform_acceleration[3], t383, t825);
-    let t827 = mul_add(platform_acceleration[4], t403, t826);
-    let t828 = mul_add(platform_acceleration[5], t411, t827);
-    let t829 = mul_add(external_wrench[0], t778, t828);
-    let t830 = mul_sub(t776, t816, mul_sub(external_wrench[2], t779, t829));
-    let t831 = mul_sub(t801, t818, mul_sub(t789, t817, t830));
-    let t832 = mul_sub(t813, t822, t831);
-    let t833 = mul_add(t149, t781, t181);
-    let t834 = mul_sub(t833, t792, mul_add(t149, t790, t183));
-    let t835 = mul_add(t833, t804, neg_mul_add(t149, t803, t153));
-    let t836 = mul_sub(t834, t806, t835);
-    let t837 = t175 * t780;
-    let t838 = neg_mul_add(t167, t837, t169) * t791;
-    let t839 = mul_sub(t802, t838, neg_mul_add(t161, t837, t163)) * t805;
-    let t840 = mul_sub(t814, t838, neg_mul_add(t155, t837, t157));
-    let t841 = mul_sub(t815, t839, t840) * t821;
-    let t842 = mul_add(t833, t838, neg_mul_add(t149, t837, t151));
-    let t843 = mul_sub(t833, t817, mul_add(t149, t816, t182));
-    let t844 = c(1.0) / mul_sub(t836, t822, mul_sub(t834, t818, t843));
-    let t845 = mul_sub(t836, t841, mul_sub(t834, t839, t842)) * t844;
-    let t846 = mul_add(platform_acceleration[0], t271, external_wrench[1] - t750);
-    let t847 = mul_add(platform_acceleration[1], t352, t846);
-    let t848 = mul_add(platform_acceleration[2], t291, t847);
-    let t849 = mul_add(platform_acceleration[3], t354, t848);
-    let t850 = mul_sub(platform_acceleration[4], t310, t849);
-    let t851 = mul_sub(t776, t837, mul_sub(platform_acceleration[5], t356, t850));
-    let t852 = mul_sub(t801, t839, mul_sub(t789, t838, t851));
-    let t853 = mul_sub(t832, t845, mul_sub(t813, t841, t852));
-    let t854 = mul_add(t143, t781, t178);
-    let t855 = mul_sub(t854, t792, mul_add(t143, t790, t180));
-    let t856 = mul_add(t854, t804, neg_mul_add(t143, t803, t147));
-    let t857 = mul_sub(t855, t806, t856);
-    let t858 = mul_sub(t854, t817, mul_add(t143, t816, t179));
-    let t859 = mul_sub(t857, t822, mul_sub(t855, t818, t858));
-    let t860 = mul_add(t854, t838, neg_mul_add(t143, t837, t145));
-    let t861 = mul_sub(t857, t841, mul_sub(t855, t839, t860));
-    let t862 = t853 * (c(1.0) / mul_sub(t859, t845, t861));
-    inverse_dynamics[0] = -t862;
-    let t863 = t844 * neg_mul_add(t859, t862, t832);
-    inverse_dynamics[1] = -t863;
-    let t864 = t821 * mul_sub(t857, t862, neg_mul_add(t836, t863, t813));
-    inverse_dynamics[2] = t864;
-    let t865 = mul_sub(t834, t863, mul_add(t815, t864, t801));
-    let t866 = t805 * mul_add(t855, t862, t865);
-    inverse_dynamics[3] = t866;
-    let t867 = mul_add(t814, t864, mul_add(t802, t866, t789));
-    let t868 = t791 * mul_add(t854, t862, mul_sub(t833, t863, t867));
-    inverse_dynamics[4] = t868;
-    let t869 = neg_mul_add(t161, t866, neg_mul_add(t167, t868, t776));
-    let t870 = neg_mul_add(t149, t863, neg_mul_add(t155, t864, t869));
-    inverse_dynamics[5] = t780 * neg_mul_add(t143, t862, t870);
+    let t776 = c(1.0) / t173;
+    let t777 = t193 * t776;
+    let t778 = mul_sub(platform_acceleration[0], t277, external_wrench[3] + t756);
+    let t779 = mul_sub(platform_acceleration[1], t351, t778);
+    let t780 = mul_add(platform_acceleration[2], t357, t779);
+    let t781 = mul_add(platform_acceleration[3], t371, t780);
+    let t782 = mul_add(platform_acceleration[4], t379, t781);
+    let t783 = mul_add(platform_acceleration[5], t387, t782);
+    let t784 = mul_add(external_wrench[2], t773, t783);
+    let t785 = mul_sub(t772, t777, mul_sub(external_wrench[1], t774, t784));
+    let t786 = t195 * t776;
+    let t787 = c(1.0) / neg_mul_add(t167, t777, t190);
+    let t788 = neg_mul_add(t167, t786, t192) * t787;
+    let t789 = mul_add(platform_acceleration[0], t347, external_wrench[5] + t766);
+    let t790 = mul_add(platform_acceleration[1], t353, t789);
+    let t791 = mul_add(platform_acceleration[2], t334, t790);
+    let t792 = mul_add(platform_acceleration[3], t387, t791);
+    let t793 = mul_add(platform_acceleration[4], t407, t792);
+    let t794 = mul_add(platform_acceleration[5], t419, t793);
+    let t795 = mul_add(external_wrench[1], t775, t794);
+    let t796 = mul_sub(t772, t786, mul_sub(external_wrench[0], t773, t795));
+    let t797 = mul_sub(t785, t788, t796);
+    let t798 = neg_mul_add(t161, t777, t187);
+    let t799 = t177 * t776;
+    let t800 = neg_mul_add(t167, t799, t171) * t787;
+    let t801 = c(1.0) / mul_sub(t798, t788, neg_mul_add(t161, t786, t189));
+    let t802 = mul_sub(t798, t800, neg_mul_add(t161, t799, t165)) * t801;
+    let t803 = mul_add(platform_acceleration[0], t271, external_wrench[2] - t751);
+    let t804 = mul_add(platform_acceleration[1], t290, t803);
+    let t805 = mul_add(platform_acceleration[2], t355, t804);
+    let t806 = mul_add(platform_acceleration[3], t357, t805);
+    let t807 = mul_add(platform_acceleration[4], t359, t806);
+    let t808 = mul_sub(t772, t799, mul_add(platform_acceleration[5], t334, t807));
+    let t809 = mul_sub(t797, t802, mul_sub(t785, t800, t808));
+    let t810 = neg_mul_add(t155, t777, t184);
+    let t811 = mul_sub(t810, t788, neg_mul_add(t155, t786, t186));
+    let t812 = t194 * t776;
+    let t813 = neg_mul_add(t167, t812, t191) * t787;
+    let t814 = mul_sub(t798, t813, neg_mul_add(t161, t812, t188)) * t801;
+    let t815 = mul_sub(t810, t813, neg_mul_add(t155, t812, t185));
+    let t816 = mul_sub(t810, t800, neg_mul_add(t155, t799, t159));
+    let t817 = c(1.0) / mul_sub(t811, t802, t816);
+    let t818 = mul_sub(t811, t814, t815) * t817;
+    let t819 = mul_add(platform_acceleration[0], t345, external_wrench[4] + t761);
+    let t820 = mul_sub(platform_acceleration[1], t309, t819);
+    let t821 = mul_sub(platform_acceleration[2], t359, t820);
+    let t822 = mul_add(platform_acceleration[3], t379, t821);
+    let t823 = mul_add(platform_acceleration[4], t399, t822);
+    let t824 = mul_add(platform_acceleration[5], t407, t823);
+    let t825 = mul_add(external_wrench[0], t774, t824);
+    let t826 = mul_sub(t772, t812, mul_sub(external_wrench[2], t775, t825));
+    let t827 = mul_sub(t797, t814, mul_sub(t785, t813, t826));
+    let t828 = mul_sub(t809, t818, t827);
+    let t829 = mul_add(t149, t777, t181);
+    let t830 = mul_sub(t829, t788, mul_add(t149, t786, t183));
+    let t831 = mul_add(t829, t800, neg_mul_add(t149, t799, t153));
+    let t832 = mul_sub(t830, t802, t831);
+    let t833 = t175 * t776;
+    let t834 = neg_mul_add(t167, t833, t169) * t787;
+    let t835 = mul_sub(t798, t834, neg_mul_add(t161, t833, t163)) * t801;
+    let t836 = mul_sub(t810, t834, neg_mul_add(t155, t833, t157));
+    let t837 = mul_sub(t811, t835, t836) * t817;
+    let t838 = mul_add(t829, t834, neg_mul_add(t149, t833, t151));
+    let t839 = mul_sub(t829, t813, mul_add(t149, t812, t182));
+    let t840 = c(1.0) / mul_sub(t832, t818, mul_sub(t830, t814, t839));
+    let t841 = mul_sub(t832, t837, mul_sub(t830, t835, t838)) * t840;
+    let t842 = mul_add(platform_acceleration[0], t270, external_wrench[1] - t746);
+    let t843 = mul_add(platform_acceleration[1], t349, t842);
+    let t844 = mul_add(platform_acceleration[2], t290, t843);
+    let t845 = mul_add(platform_acceleration[3], t351, t844);
+    let t846 = mul_sub(platform_acceleration[4], t309, t845);
+    let t847 = mul_sub(t772, t833, mul_sub(platform_acceleration[5], t353, t846));
+    let t848 = mul_sub(t797, t835, mul_sub(t785, t834, t847));
+    let t849 = mul_sub(t828, t841, mul_sub(t809, t837, t848));
+    let t850 = mul_add(t143, t777, t178);
+    let t851 = mul_sub(t850, t788, mul_add(t143, t786, t180));
+    let t852 = mul_add(t850, t800, neg_mul_add(t143, t799, t147));
+    let t853 = mul_sub(t851, t802, t852);
+    let t854 = mul_sub(t850, t813, mul_add(t143, t812, t179));
+    let t855 = mul_sub(t853, t818, mul_sub(t851, t814, t854));
+    let t856 = mul_add(t850, t834, neg_mul_add(t143, t833, t145));
+    let t857 = mul_sub(t853, t837, mul_sub(t851, t835, t856));
+    let t858 = t849 * (c(1.0) / mul_sub(t855, t841, t857));
+    inverse_dynamics[0] = -t858;
+    let t859 = t840 * neg_mul_add(t855, t858, t828);
+    inverse_dynamics[1] = -t859;
+    let t860 = t817 * mul_sub(t853, t858, neg_mul_add(t832, t859, t809));
+    inverse_dynamics[2] = t860;
+    let t861 = mul_sub(t830, t859, mul_add(t811, t860, t797));
+    let t862 = t801 * mul_add(t851, t858, t861);
+    inverse_dynamics[3] = t862;
+    let t863 = mul_add(t810, t860, mul_add(t798, t862, t785));
+    let t864 = t787 * mul_add(t850, t858, mul_sub(t829, t859, t863));
+    inverse_dynamics[4] = t864;
+    let t865 = neg_mul_add(t161, t862, neg_mul_add(t167, t864, t772));
+    let t866 = neg_mul_add(t149, t859, neg_mul_add(t155, t860, t865));
+    inverse_dynamics[5] = t776 * neg_mul_add(t143, t858, t866);
 }
 
 /// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
@@ -22265,706 +22233,707 @@ pub fn control_in_lanes<P: Triple>(
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
     let t132 = mul_add(P::splat(P::lane(t48, 1)), t117, t114);
     // legs 2, 5, 6: gradient of the actuator length
-    let t133 = mul_add(P::splat(base_rotation[0][0]), t120, P::splat(base_rotation[0][2]));
+    let t133 = mul_add(P::splat(base_rotation[1][0]), t120, P::splat(base_rotation[1][2]));
+    let t134 = mul_add(P::splat(base_rotation[2][0]), t120, P::splat(base_rotation[2][2]));
     // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t134 = P::splat(P::lane(t69, 1)) - t116;
+    let t135 = P::splat(P::lane(t69, 1)) - t116;
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t135 = mul_sub(t92, P::splat(P::lane(t75, 1)), t123);
+    let t136 = mul_sub(t92, P::splat(P::lane(t75, 1)), t123);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t136 = neg_mul_add(P::splat(P::lane(t48, 0)), t117, t118);
+    let t137 = neg_mul_add(P::splat(P::lane(t48, 0)), t117, t118);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t137 = mul_sub(t31, P::splat(P::lane(t75, 0)), t119);
+    let t138 = mul_sub(t31, P::splat(P::lane(t75, 0)), t119);
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t138 = t38 * t74;
+    let t139 = t38 * t74;
+    // legs 2, 5, 6: gradient of the actuator length
+    let t140 = mul_add(P::splat(base_rotation[0][0]), t120, P::splat(base_rotation[0][2]));
     // legs 1, 3, 4: gradient of the actuator length
-    let t139 = mul_add(P::splat(base_rotation[0][0]), t127, P::splat(base_rotation[0][2]));
-    // legs 2, 5, 6: gradient of the actuator length
-    let t140 = mul_add(P::splat(base_rotation[1][0]), t120, P::splat(base_rotation[1][2]));
+    let t141 = mul_add(P::splat(base_rotation[0][0]), t127, P::splat(base_rotation[0][2]));
     // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t141 = mul_sub(t29, P::splat(P::lane(t48, 2)), t129);
-    let t142 = P::splat(P::lane(t69, 2)) - t121;
+    let t142 = mul_sub(t29, P::splat(P::lane(t48, 2)), t129);
+    let t143 = P::splat(P::lane(t69, 2)) - t121;
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t143 = mul_add(P::splat(P::lane(t48, 2)), t128, t124);
+    let t144 = mul_add(P::splat(P::lane(t48, 2)), t128, t124);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t144 = P::splat(P::lane(t48, 1)) * t104;
+    let t145 = P::splat(P::lane(t48, 1)) * t104;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t145 = neg_mul_add(P::splat(P::lane(t59, 2)), t126, t125);
+    let t146 = neg_mul_add(P::splat(P::lane(t59, 2)), t126, t125);
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t146 = t41 * t77;
-    // legs 2, 5, 6: gradient of the actuator length
-    let t147 = mul_add(P::splat(base_rotation[2][0]), t120, P::splat(base_rotation[2][2]));
+    let t147 = t41 * t77;
     // angular velocity of the platform
     let t148 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t149 = P::triple([P::lane(t113, 2), P::lane(t113, 0), P::lane(t113, 1)]);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t150 = neg_mul_add(P::splat(P::lane(t48, 2)), t134, t132);
+    let t150 = neg_mul_add(P::splat(P::lane(t48, 2)), t135, t132);
     // legs 2, 5, 6: gradient of the actuator length
-    let t151 = mul_add(P::splat(base_rotation[0][1]), t138, t133);
+    let t151 = mul_add(P::splat(base_rotation[1][1]), t139, t133);
     // legs 1, 3, 4: gradient of the actuator length
     let t152 = mul_add(P::splat(base_rotation[1][0]), t127, P::splat(base_rotation[1][2]));
-    let t153 = mul_add(P::splat(base_rotation[2][0]), t127, P::splat(base_rotation[2][2]));
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t154 = mul_add(P::splat(P::lane(t48, 1)), t142, t135);
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t155 = P::splat(P::lane(t122, 1)) + t136;
-    let t156 = mul_sub(P::splat(P::lane(t48, 0)), t134, t144);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t157 = mul_add(P::splat(P::lane(t64, 1)), t82, P::splat(P::lane(t67, 1)));
-    // legs 1, 3, 4: gradient of the actuator length
-    let t158 = mul_add(P::splat(base_rotation[0][1]), t146, t139);
     // legs 2, 5, 6: gradient of the actuator length
-    let t159 = mul_add(P::splat(base_rotation[1][1]), t138, t140);
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t160 = base_rotation[0][2] * c(0.17066666666666666);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t161 = P::splat(P::lane(t69, 1)) - t141;
+    let t153 = mul_add(P::splat(base_rotation[2][1]), t139, t134);
+    // legs 1, 3, 4: gradient of the actuator length
+    let t154 = mul_add(P::splat(base_rotation[2][0]), t127, P::splat(base_rotation[2][2]));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t162 = neg_mul_add(P::splat(P::lane(t48, 0)), t142, t143);
+    let t155 = mul_add(P::splat(P::lane(t48, 1)), t143, t136);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t156 = P::splat(P::lane(t122, 1)) + t137;
+    let t157 = mul_sub(P::splat(P::lane(t48, 0)), t135, t145);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t158 = mul_add(P::splat(P::lane(t64, 1)), t82, P::splat(P::lane(t67, 1)));
+    // legs 2, 5, 6: gradient of the actuator length
+    let t159 = mul_add(P::splat(base_rotation[0][1]), t139, t140);
+    // legs 1, 3, 4: gradient of the actuator length
+    let t160 = mul_add(P::splat(base_rotation[0][1]), t147, t141);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t161 = P::splat(P::lane(t69, 1)) - t142;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t162 = neg_mul_add(P::splat(P::lane(t48, 0)), t143, t144);
     // legs 2, 5, 6: leg inertia less weight along the actuator
     let t163 = neg_mul_add(P::splat(P::lane(t59, 0)), t82, P::splat(P::lane(t67, 0)));
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t164 = mul_sub(t33, P::splat(P::lane(t75, 0)), t145);
-    // legs 2, 5, 6: gradient of the actuator length
-    let t165 = mul_add(P::splat(base_rotation[2][1]), t138, t147);
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t166 = base_rotation[1][2] * c(0.17066666666666666);
+    let t164 = mul_sub(t33, P::splat(P::lane(t75, 0)), t146);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t167 = mul_add(t134, t138, mul_add(t104, t120, t117));
+    let t165 = mul_add(t135, t139, mul_add(t104, t120, t117));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t168 = P::splat(P::lane(t48, 1)) * t128;
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t169 = base_rotation[2][2] * c(0.17066666666666666);
+    let t166 = P::splat(P::lane(t48, 1)) * t128;
     // acceleration per platform coordinate of points of the platform
-    let t170 = mul_sub(t70, t113, t148 * t149);
-    let t171 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
+    let t167 = mul_sub(t70, t113, t148 * t149);
+    let t168 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t172 = t150 + P::splat(P::lane(t122, 0));
+    let t169 = t150 + P::splat(P::lane(t122, 0));
     // legs 1, 3, 4: gradient of the actuator length
-    let t173 = mul_add(P::splat(base_rotation[1][1]), t146, t152);
-    let t174 = mul_add(P::splat(base_rotation[2][1]), t146, t153);
+    let t170 = mul_add(P::splat(base_rotation[1][1]), t147, t152);
+    let t171 = mul_add(P::splat(base_rotation[2][1]), t147, t154);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t175 = mul_add(t151, w(0.4761666666666667), P::splat(t160));
+    let t172 = mul_add(P::splat(base_rotation[1][2]), w(0.1792089604480224), t151);
+    let t173 = mul_add(P::splat(base_rotation[2][2]), w(0.1792089604480224), t153);
     // acceleration of the platform origin less gravity
-    let t176 = t5 * w(9.81);
+    let t174 = t5 * w(9.81);
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t177 = neg_mul_add(P::splat(P::lane(t48, 2)), t161, t154);
+    let t175 = neg_mul_add(P::splat(P::lane(t48, 2)), t161, t155);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t178 = neg_mul_add(P::splat(P::lane(t59, 1)), t95, t157);
-    let t179 = t156 + neg_mul_add(t28, P::splat(P::lane(t75, 1)), t137);
+    let t176 = neg_mul_add(P::splat(P::lane(t59, 1)), t95, t158);
+    let t177 = t157 + neg_mul_add(t28, P::splat(P::lane(t75, 1)), t138);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t178 = mul_add(P::splat(base_rotation[0][2]), w(0.1792089604480224), t159);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t180 = mul_add(t158, w(0.4761666666666667), P::splat(t160));
+    let t179 = mul_add(P::splat(base_rotation[0][2]), w(0.1792089604480224), t160);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t181 = mul_add(t159, w(0.4761666666666667), P::splat(t166));
+    let t180 = base_rotation[1][2] * c(0.03058499591646249);
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t182 = P::splat(P::lane(t122, 1)) + t162;
-    let t183 = mul_sub(P::splat(P::lane(t48, 0)), t161, t168);
+    let t181 = P::splat(P::lane(t122, 1)) + t162;
+    let t182 = mul_sub(P::splat(P::lane(t48, 0)), t161, t166);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t184 = mul_add(P::splat(P::lane(t68, 0)), t95, t163);
+    let t183 = mul_add(P::splat(P::lane(t68, 0)), t95, t163);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t185 = mul_add(t165, w(0.4761666666666667), P::splat(t169));
+    let t184 = base_rotation[0][2] * c(0.03058499591646249);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t186 = t117 - t167;
+    let t185 = t117 - t165;
     // legs 2, 5, 6: actuator acceleration d''
-    let t187 = mul_add(t120, t172, t138 * t155);
+    let t186 = mul_add(t120, t169, t139 * t156);
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t188 = mul_add(t146, t161, mul_add(t127, t128, t142));
+    let t187 = mul_add(t147, t161, mul_add(t127, t128, t143));
     // acceleration per platform coordinate of points of the platform
-    let t189 = mul_sub(t70, t131, t148 * t171);
+    let t188 = mul_sub(t70, t131, t148 * t168);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t190 = P::splat(platform_rotation[2][1]) * t9;
+    let t189 = P::splat(platform_rotation[0][1]) * t9;
+    let t190 = P::splat(platform_rotation[1][1]) * t9;
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t191 = mul_add(t173, w(0.4761666666666667), P::splat(t166));
-    let t192 = mul_add(t174, w(0.4761666666666667), P::splat(t169));
+    let t191 = mul_add(P::splat(base_rotation[1][2]), w(0.1792089604480224), t170);
+    let t192 = mul_add(P::splat(base_rotation[2][2]), w(0.1792089604480224), t171);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t193 = t172 * w(0.9523333333333334);
+    let t194 = base_rotation[2][2] * t180;
+    let t195 = base_rotation[2][2] * (base_rotation[2][2] * c(0.03058499591646249));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t193 = P::splat(P::lane(t122, 0)) + t177;
+    let t196 = P::splat(P::lane(t122, 0)) + t175;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t194 = mul_add(P::splat(P::lane(t68, 1)), t103, t178);
+    let t197 = mul_add(P::splat(P::lane(t68, 1)), t103, t176);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t195 = neg_mul_add(P::splat(P::lane(t59, 0)), t97, P::splat(P::lane(t67, 0)));
-    let t196 = mul_add(P::splat(P::lane(t64, 1)), t97, P::splat(P::lane(t67, 1)));
+    let t198 = neg_mul_add(P::splat(P::lane(t59, 0)), t97, P::splat(P::lane(t67, 0)));
+    let t199 = mul_add(P::splat(P::lane(t64, 1)), t97, P::splat(P::lane(t67, 1)));
     // legs 2, 5, 6: platform joint from the platform origin
-    let t197 = P::splat(platform_rotation[0][1]) * t9;
-    let t198 = P::splat(platform_rotation[1][1]) * t9;
+    let t200 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t201 = t178 * w(0.9523333333333334);
+    let t202 = base_rotation[0][2] * t184;
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t203 = t179 * w(0.9523333333333334);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t204 = base_rotation[1][2] * t184;
+    let t205 = base_rotation[2][2] * t184;
     // legs 2, 5, 6: actuator acceleration d''
-    let t199 = mul_add(t186, t186, mul_add(t104, t104, t134 * t134));
+    let t206 = mul_add(t185, t185, mul_add(t104, t104, t135 * t135));
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t200 = mul_add(P::splat(P::lane(t64, 0)), t103, t184);
-    let t201 = t167 * w(2.0);
+    let t207 = mul_add(P::splat(P::lane(t64, 0)), t103, t183);
+    let t208 = t165 * w(2.0);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t202 = t183 + neg_mul_add(t29, P::splat(P::lane(t75, 1)), t164);
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t203 = t165 * t185;
+    let t209 = t182 + neg_mul_add(t29, P::splat(P::lane(t75, 1)), t164);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t204 = mul_add(P::splat(platform_rotation[2][0]), t11, t190);
+    let t210 = mul_add(P::splat(platform_rotation[0][0]), t11, t189);
+    let t211 = mul_add(P::splat(platform_rotation[1][0]), t11, t190);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t205 = mul_add(t151, t185, t165 * t175);
+    let t212 = base_rotation[1][2] * t180;
+    let t213 = mul_sub(t173, t193, P::splat(t194));
+    let t214 = mul_sub(t173, t173 * w(0.9523333333333334), P::splat(t195));
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t206 = t142 - t188;
+    let t215 = t143 - t187;
     // legs 1, 3, 4: actuator acceleration d''
-    let t207 = mul_add(t127, t193, t146 * t182);
+    let t216 = mul_add(t127, t196, t147 * t181);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t208 = mul_add(t12, P::splat(P::lane(t170, 2)), P::splat(P::lane(t176, 2)));
+    let t217 = mul_add(t12, P::splat(P::lane(t167, 2)), P::splat(P::lane(t174, 2)));
     // legs 2, 5, 6: platform joint from the platform origin
-    let t209 = mul_add(P::splat(platform_rotation[0][0]), t11, t197);
-    let t210 = mul_add(P::splat(platform_rotation[1][0]), t11, t198);
+    let t218 = mul_add(P::splat(platform_rotation[2][0]), t11, t200);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t211 = t151 * t175;
+    let t219 = mul_sub(t178, t201, P::splat(t202));
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t212 = w(2.0) * (t158 * t180);
+    let t220 = neg_mul_add(t179, t203, P::splat(t202));
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t213 = mul_add(t151, t181, t159 * t175);
+    let t221 = mul_sub(t172, t201, P::splat(t204));
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t214 = mul_add(t158, t191, t173 * t180);
-    let t215 = mul_add(t158, t192, t174 * t180);
+    let t222 = neg_mul_add(t191, t203, P::splat(t204));
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t216 = mul_add(t159, t185, t165 * t181);
+    let t223 = mul_sub(t173, t201, P::splat(t205));
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t224 = neg_mul_add(t192, t203, P::splat(t205));
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t217 = neg_mul_add(P::splat(P::lane(t32, 0)), t201, t194);
+    let t225 = neg_mul_add(P::splat(P::lane(t32, 0)), t208, t197);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t218 = mul_add(P::splat(P::lane(t68, 0)), t115, t195);
-    let t219 = neg_mul_add(P::splat(P::lane(t59, 1)), t115, t196);
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t220 = t159 * t181;
-    let t221 = w(2.0) * t203;
+    let t226 = mul_add(P::splat(P::lane(t68, 0)), t115, t198);
+    let t227 = neg_mul_add(P::splat(P::lane(t59, 1)), t115, t199);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t222 = mul_add(P::splat(P::lane(t32, 1)), t201, t200);
-    let t223 = neg_mul_add(t74, t199, t187 + (P::splat(P::lane(t122, 2)) + t179));
+    let t228 = mul_add(P::splat(P::lane(t32, 1)), t208, t207);
+    let t229 = neg_mul_add(t74, t206, t186 + (P::splat(P::lane(t122, 2)) + t177));
     // rotation of the platform seen from the base
-    let t224 = t1 * P::splat(platform_rotation[1][2]);
+    let t230 = t1 * P::splat(platform_rotation[1][2]);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t231 = mul_sub(t172, t193, P::splat(t212));
     // legs 1, 3, 4: actuator acceleration d''
-    let t225 = mul_add(t206, t206, mul_add(t128, t128, t161 * t161));
+    let t232 = mul_add(t215, t215, mul_add(t128, t128, t161 * t161));
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t226 = mul_add(t11, P::splat(P::lane(t170, 2)), P::splat(P::lane(t176, 2)));
+    let t233 = mul_add(t11, P::splat(P::lane(t167, 2)), P::splat(P::lane(t174, 2)));
     // legs 1, 3, 4: platform joint from the platform origin
-    let t227 = P::splat(platform_rotation[0][1]) * t10;
+    let t234 = P::splat(platform_rotation[0][1]) * t10;
+    let t235 = P::splat(platform_rotation[1][1]) * t10;
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t236 = w(0.9523333333333334) * t191;
     // mass matrix of the legs
-    let t228 = mul_add(w(2.0), t211, t212);
+    let t237 = t210 * t213;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t229 = P::lane(t32, 0) * P::lane(t32, 0);
+    let t238 = P::lane(t32, 0) * P::lane(t32, 0);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t230 = mul_add(t10, P::splat(P::lane(t189, 2)), t208);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t231 = P::splat(platform_rotation[1][1]) * t10;
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t232 = w(2.0) * t220;
+    let t239 = mul_add(t10, P::splat(P::lane(t188, 2)), t217);
     // mass matrix of the legs
-    let t233 = t213 + t214;
-    let t234 = t205 + t215;
-    let t235 = t209 * t216;
+    let t240 = t219 - t220;
+    let t241 = t221 - t222;
+    let t242 = t223 - t224;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t236 = mul_add(P::splat(P::lane(t64, 0)), t126, t218);
-    let t237 = mul_add(P::splat(P::lane(t68, 1)), t126, t219);
+    let t243 = mul_add(P::splat(P::lane(t64, 0)), t126, t226);
+    let t244 = mul_add(P::splat(P::lane(t68, 1)), t126, t227);
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t238 = w(0.17066666666666666) * t217;
+    let t245 = t225 * w(0.17066666666666666);
     // rotation of the platform seen from the base
-    let t239 = mul_add(t2, P::splat(platform_rotation[0][2]), t224);
+    let t246 = mul_add(t2, P::splat(platform_rotation[0][2]), t230);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t240 = t188 * w(2.0);
+    let t247 = t187 * w(2.0);
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t241 = w(0.17066666666666666) * t222;
-    let t242 = w(0.17066666666666666) * t223;
+    let t248 = t228 * w(0.17066666666666666);
+    let t249 = t229 * w(0.17066666666666666);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t243 = mul_add(P::splat(platform_rotation[0][0]), t12, t227);
-    let t244 = P::splat(platform_rotation[2][1]) * t10;
+    let t250 = mul_add(P::splat(platform_rotation[0][0]), t12, t234);
+    let t251 = mul_add(P::splat(platform_rotation[1][0]), t12, t235);
+    let t252 = P::splat(platform_rotation[2][1]) * t10;
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t245 = mul_add(t173, t192, t174 * t191);
+    let t253 = neg_mul_add(t191, t236, P::splat(t212));
+    let t254 = neg_mul_add(t192, t236, P::splat(t194));
+    let t255 = w(0.9523333333333334) * t192;
     // mass matrix of the legs
-    let t246 = mul_sub(t209, t221, t204 * t205);
+    let t256 = mul_sub(t211, t223, t237);
+    let t257 = mul_sub(t213, t218, t211 * t214);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t247 = mul_add(t9, P::splat(P::lane(t189, 2)), t226);
-    let t248 = P::mul_add(P::lane(t32, 1), P::lane(t32, 1), t229);
+    let t258 = mul_add(t9, P::splat(P::lane(t188, 2)), t233);
+    let t259 = P::mul_add(P::lane(t32, 1), P::lane(t32, 1), t238);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t249 = neg_mul_add(t77, t225, t207 + (P::splat(P::lane(t122, 2)) + t202));
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t250 = mul_add(P::splat(platform_rotation[1][0]), t12, t231);
+    let t260 = neg_mul_add(t77, t232, t216 + (P::splat(P::lane(t122, 2)) + t209));
     // mass matrix of the legs
-    let t251 = mul_sub(t205, t210, t235);
-    let t252 = mul_sub(t204, t216, t210 * t221);
+    let t261 = mul_sub(t210, t214, t218 * t223);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t253 = w(0.17066666666666666) * t230;
-    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t254 = w(2.0) * (t173 * t191);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t255 = mul_add(P::splat(P::lane(t32, 1)), t240, t236);
-    let t256 = neg_mul_add(P::splat(P::lane(t32, 0)), t240, t237);
+    let t262 = t239 * w(0.17066666666666666);
+    let t263 = mul_add(P::splat(P::lane(t32, 1)), t247, t243);
+    let t264 = neg_mul_add(P::splat(P::lane(t32, 0)), t247, t244);
     // rotation of the platform seen from the base
-    let t257 = mul_add(t5, P::splat(platform_rotation[2][2]), t239);
+    let t265 = mul_add(t5, P::splat(platform_rotation[2][2]), t246);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t258 = mul_add(P::splat(platform_rotation[2][0]), t12, t244);
-    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t259 = w(2.0) * t211;
-    // mass matrix of the legs
-    let t260 = mul_sub(t204, t213, t235);
-    let t261 = t243 * t245;
-    let t262 = mul_sub(t204, t232, t210 * t216);
-    let t263 = mul_sub(t210, t213, t209 * t232);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t264 = w(0.17066666666666666) * t247;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t265 = mul_sub(t249, w(0.3413333333333334), t253);
-    let t266 = mul_sub(P::splat(t248), w(0.05), t249);
-    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
-    let t267 = mul_add(t31, t242, t76 * t238);
-    // mass matrix of the legs
-    let t268 = mul_add(w(2.0), t220, t254);
-    let t269 = P::triple([P::lane(t228, 0), P::lane(t233, 0), P::lane(t234, 0)]);
-    let t270 = P::triple([P::lane(t228, 1), P::lane(t233, 1), P::lane(t234, 1)]);
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t271 = w(0.17066666666666666) * t249;
-    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
-    let t272 = mul_add(t76, t241, t28 * t242);
-    let t273 = mul_sub(t28, t238, t31 * t241);
+    let t266 = mul_add(P::splat(platform_rotation[2][0]), t12, t252);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t274 = w(2.0) * (t174 * t192);
+    let t267 = neg_mul_add(t192, t255, P::splat(t195));
     // mass matrix of the legs
-    let t275 = t216 + t245;
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t276 = w(0.17066666666666666) * t255;
-    let t277 = w(0.17066666666666666) * t256;
-    // mass matrix of the legs
-    let t278 = mul_sub(t214, t258, t261);
+    let t268 = mul_sub(t218, t231, t211 * t213);
+    let t269 = mul_sub(t211, t221, t210 * t231);
+    let t270 = mul_sub(t218, t221, t237);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t279 = mul_sub(t223, w(0.3413333333333334), t264);
-    let t280 = neg_mul_add(P::splat(t248), w(0.05), t223);
-    // mass matrix of the legs
-    let t281 = mul_sub(t254, t258, t245 * t250);
-    let t282 = mul_sub(t214, t250, t243 * t254);
-    let t283 = P::triple([P::lane(t228, 2), P::lane(t233, 2), P::lane(t234, 2)]);
+    let t271 = w(0.17066666666666666) * t258;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t284 = neg_mul_add(t266, w(0.611), t265);
+    let t272 = mul_sub(t260, w(0.3413333333333334), t262);
+    let t273 = mul_sub(P::splat(t259), w(0.05), t260);
+    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
+    let t274 = mul_add(t31, t249, t76 * t245);
+    // mass matrix of the legs
+    let t275 = t250 * t254;
+    let t276 = P::triple([P::lane(t240, 0), P::lane(t241, 0), P::lane(t242, 0)]);
+    let t277 = P::triple([P::lane(t240, 1), P::lane(t241, 1), P::lane(t242, 1)]);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t278 = w(0.17066666666666666) * t260;
+    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
+    let t279 = mul_add(t76, t248, t28 * t249);
+    let t280 = mul_sub(t28, t245, t31 * t248);
+    // mass matrix of the legs
+    let t281 = t231 - t253;
+    let t282 = t213 - t254;
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t283 = w(0.17066666666666666) * t263;
+    let t284 = w(0.17066666666666666) * t264;
+    // mass matrix of the legs
+    let t285 = mul_sub(t253, t266, t251 * t254);
+    let t286 = mul_sub(t222, t251, t250 * t253);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t287 = mul_sub(t229, w(0.3413333333333334), t271);
+    let t288 = neg_mul_add(P::splat(t259), w(0.05), t229);
+    // mass matrix of the legs
+    let t289 = mul_sub(t222, t266, t275);
+    let t290 = mul_sub(t210, t223, t218 * t219);
+    let t291 = mul_sub(t211, t219, t210 * t221);
+    let t292 = P::triple([P::lane(t240, 2), P::lane(t241, 2), P::lane(t242, 2)]);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t293 = neg_mul_add(t273, w(0.611), t272);
     // inertia force less weight, without the actuators' own shares
-    let t285 = mul_add(w(0.17066666666666666), t223, t271);
+    let t294 = mul_add(t229, w(0.17066666666666666), t278);
     // mass matrix of the legs
-    let t286 = mul_sub(t205, t209, t204 * t259);
-    let t287 = mul_sub(t210, t259, t209 * t213);
-    let t288 = t269 + t270 + t283;
+    let t295 = t276 + t277 + t292;
     // legs 1, 3, 4: spring and damper force along the actuator
-    let t289 = t126 - w(0.198);
+    let t296 = t126 - w(0.198);
     // inertia force less weight, without the actuators' own shares
-    let t290 = mul_add(w(0.17066666666666666), t222, t276);
-    let t291 = mul_add(w(0.17066666666666666), t217, t277);
+    let t297 = mul_add(t228, w(0.17066666666666666), t283);
+    let t298 = mul_add(t225, w(0.17066666666666666), t284);
     // mass matrix of the legs
-    let t292 = mul_add(t258, t278, mul_add(t204, t260, t210 * t246));
-    let t293 = mul_sub(t243, t274, t215 * t258);
+    let t299 = mul_sub(t222, t266, mul_sub(t218, t221, t211 * t223));
+    let t300 = mul_sub(t224, t251, t275);
+    let t301 = mul_sub(t254, t266, t251 * t267);
+    let t302 = mul_sub(t250, t267, t224 * t266);
+    let t303 = mul_sub(t266, t285, mul_sub(t218, t268, t211 * t257));
+    let t304 = mul_sub(t266, t286, mul_sub(t218, t269, t211 * t256));
+    let t305 = mul_sub(t224, t250, t220 * t266);
+    let t306 = mul_sub(t220, t251, t222 * t250);
     // rotation of the platform seen from the base
-    let t294 = P::triple([P::lane(t257, 1), P::lane(t257, 2), P::lane(t257, 0)]);
+    let t307 = P::triple([P::lane(t265, 1), P::lane(t265, 2), P::lane(t265, 0)]);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t295 = mul_add(t280, w(0.611), t279);
+    let t308 = mul_add(t288, w(0.611), t287);
     // mass matrix of the legs
-    let t296 = mul_sub(t215, t250, t261);
-    let t297 = mul_add(t258, t281, mul_sub(t204, t262, t210 * t252));
-    let t298 = mul_sub(t245, t258, t250 * t274);
-    let t299 = mul_add(t258, t282, mul_sub(t204, t263, t210 * t251));
+    let t309 = mul_sub(t266, t289, mul_add(t218, t270, t211 * t261));
     // acceleration per platform coordinate of points of the platform
-    let t300 = mul_sub(t43, t294, t70 * t257);
+    let t310 = mul_sub(t43, t307, t70 * t265);
     // legs 2, 5, 6: spring and damper force along the actuator
-    let t301 = t103 - w(0.198);
+    let t311 = t103 - w(0.198);
     // moment of the legs' inertia at their joints about the platform origin
-    let t302 = mul_add(t92, t277, mul_add(t33, t271, t267));
+    let t312 = mul_add(t92, t284, mul_add(t33, t278, t274));
     // legs 1, 3, 4: force along the actuator that reaches the platform
-    let t303 = neg_mul_add(t289, w(21555.9), t284);
+    let t313 = neg_mul_add(t296, w(21555.9), t293);
     // mass matrix of the legs
-    let t304 = mul_add(w(2.0), t203, t274);
-    let t305 = P::lane(t275, 1) + P::lane(t275, 0);
+    let t314 = P::lane(t282, 1) + P::lane(t282, 0);
     // moment of the legs' inertia at their joints about the platform origin
-    let t306 = mul_add(t29, t271, mul_add(t92, t276, t272));
-    let t307 = neg_mul_add(t33, t276, mul_add(t29, t277, t273));
+    let t315 = mul_add(t29, t278, mul_add(t92, t283, t279));
+    let t316 = neg_mul_add(t33, t283, mul_add(t29, t284, t280));
     // mass matrix of the legs
-    let t308 = mul_add(t214, t258, mul_sub(t204, t213, t205 * t210));
-    let t309 = mul_add(t250, t293, t292);
+    let t317 = neg_mul_add(t224, t251, t299);
+    let t318 = t289 - t270;
+    let t319 = t214 - t267;
+    let t320 = t300 - t256;
+    // mass matrix M_p of the platform
+    let t321 = t285 - t268;
+    let t322 = t286 - t269;
+    let t323 = t257 - t301;
+    let t324 = t261 - t302;
+    // mass matrix of the legs
+    let t325 = neg_mul_add(t251, t301, t303);
+    let t326 = neg_mul_add(t251, t300, t304);
+    // mass matrix M_p of the platform
+    let t327 = t290 - t305;
+    let t328 = t291 - t306;
     // legs 2, 5, 6: force along the actuator that reaches the platform
-    let t310 = neg_mul_add(w(21555.9), t301, t295);
+    let t329 = neg_mul_add(w(21555.9), t311, t308);
     // mass matrix of the legs
-    let t311 = neg_mul_add(t250, t298, t297);
-    let t312 = neg_mul_add(t250, t296, t299);
-    let t313 = mul_sub(t212, t250, t214 * t243);
-    let t314 = P::triple([P::lane(t288, 1), P::lane(t268, 2), P::lane(t275, 2)]);
-    let t315 = P::triple([c(0.0), P::lane(t268, 1) + P::lane(t268, 0), t305]);
-    // mass matrix M_p of the platform
-    let t316 = t262 + t281;
-    // mass matrix of the legs
-    let t317 = mul_sub(t215, t243, t212 * t258);
-    let t318 = t314 + t315;
-    // mass matrix M_p of the platform
-    let t319 = t252 + t298;
+    let t330 = mul_add(t251, t302, t309);
+    let t331 = P::triple([P::lane(t295, 1), P::lane(t281, 2), P::lane(t282, 2)]);
+    let t332 = P::triple([c(0.0), P::lane(t281, 1) + P::lane(t281, 0), t314]);
+    let t333 = t331 + t332;
     // inertia force less weight, without the actuators' own shares
-    let t320 = P::triple([P::lane(t290, 0), P::lane(t291, 0), -P::lane(t285, 0)]);
-    let t321 = P::triple([P::lane(t290, 1), P::lane(t291, 1), -P::lane(t285, 1)]);
+    let t334 = P::triple([P::lane(t297, 0), P::lane(t298, 0), -P::lane(t294, 0)]);
+    let t335 = P::triple([P::lane(t297, 1), P::lane(t298, 1), -P::lane(t294, 1)]);
     // mass matrix of the legs
-    let t322 = neg_mul_add(t215, t250, t308);
+    let t336 = mul_sub(t250, t302, mul_sub(t210, t261, t218 * t290));
+    let t337 = mul_sub(t250, t300, mul_sub(t210, t256, t218 * t291));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t323 = mul_add(t151, t310, t158 * t303);
-    let t324 = mul_add(t159, t310, t173 * t303);
-    let t325 = mul_add(t165, t310, t174 * t303);
-    // mass matrix of the legs
-    let t326 = mul_add(t243, t293, mul_sub(t209, t246, t204 * t286));
-    let t327 = mul_add(t243, t296, mul_sub(t209, t251, t204 * t287));
+    let t338 = mul_add(t159, t329, t160 * t313);
+    let t339 = mul_add(t151, t329, t170 * t313);
+    let t340 = mul_add(t153, t329, t171 * t313);
     // mass matrix M_p of the platform
-    let t328 = t287 + t313;
-    let t329 = t246 + t293;
-    let t330 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
+    let t341 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
     // acceleration per platform coordinate of points of the platform
-    let t331 = P::triple([P::lane(t300, 2), P::lane(t300, 0), P::lane(t300, 1)]);
+    let t342 = P::triple([P::lane(t310, 2), P::lane(t310, 0), P::lane(t310, 1)]);
     // inertia force less weight, without the actuators' own shares
-    let t332 = P::triple([P::lane(t290, 2), P::lane(t291, 2), -P::lane(t285, 2)]);
+    let t343 = P::triple([P::lane(t297, 2), P::lane(t298, 2), -P::lane(t294, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t333 = t170 * w(0.032245600000000006);
+    let t344 = t167 * w(0.032245600000000006);
     // legs 6, 2, 5: gradient of the actuator length
-    let t334 = P::triple([P::lane(t165, 2), P::lane(t165, 0), P::lane(t165, 1)]);
+    let t345 = P::triple([P::lane(t153, 2), P::lane(t153, 0), P::lane(t153, 1)]);
     // legs 5, 6, 2: gradient of the actuator length
-    let t335 = P::triple([P::lane(t151, 1), P::lane(t151, 2), P::lane(t151, 0)]);
+    let t346 = P::triple([P::lane(t159, 1), P::lane(t159, 2), P::lane(t159, 0)]);
     // mass matrix M_p of the platform
-    let t336 = t286 + t317;
-    let t337 = t263 + t282;
+    let t347 = P::triple([P::lane(t321, 0), P::lane(t318, 0), P::lane(t322, 0)]);
+    let t348 = P::triple([P::lane(t321, 1), P::lane(t318, 1), P::lane(t322, 1)]);
+    let t349 = P::triple([P::lane(t323, 0), P::lane(t324, 0), P::lane(t320, 0)]);
+    let t350 = P::triple([P::lane(t323, 1), P::lane(t324, 1), P::lane(t320, 1)]);
     // mass matrix of the legs
-    let t338 = t318 + t330;
+    let t351 = t333 + t341;
     // moment of the legs' inertia at their joints about the platform origin
-    let t339 = P::triple([-P::lane(t302, 0), P::lane(t306, 0), P::lane(t307, 0)]);
-    let t340 = P::triple([-P::lane(t302, 1), P::lane(t306, 1), P::lane(t307, 1)]);
+    let t352 = P::triple([-P::lane(t312, 0), P::lane(t315, 0), P::lane(t316, 0)]);
+    let t353 = P::triple([-P::lane(t312, 1), P::lane(t315, 1), P::lane(t316, 1)]);
     // legs 5, 6, 2: gradient of the actuator length
-    let t341 = P::triple([P::lane(t165, 1), P::lane(t165, 2), P::lane(t165, 0)]);
+    let t354 = P::triple([P::lane(t153, 1), P::lane(t153, 2), P::lane(t153, 0)]);
     // legs 6, 2, 5: gradient of the actuator length
-    let t342 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
+    let t355 = P::triple([P::lane(t151, 2), P::lane(t151, 0), P::lane(t151, 1)]);
+    // mass matrix of the legs
+    let t356 = P::triple([P::lane(t317, 0), P::lane(t327, 0), P::lane(t328, 0)]);
+    let t357 = P::triple([P::lane(t317, 1), P::lane(t327, 1), P::lane(t328, 1)]);
+    let t358 = neg_mul_add(t266, t305, t336);
+    let t359 = neg_mul_add(t266, t306, t337);
     // mass of payload and platform-side leg ends
-    let t343 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+    let t360 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
     // legs 6, 2, 5: gradient of the actuator length
-    let t344 = P::triple([P::lane(t151, 2), P::lane(t151, 0), P::lane(t151, 1)]);
+    let t361 = P::triple([P::lane(t159, 2), P::lane(t159, 0), P::lane(t159, 1)]);
     // mass matrix of the legs
-    let t345 = t251 + t296;
-    let t346 = neg_mul_add(t258, t317, t326);
-    let t347 = neg_mul_add(t258, t313, t327);
-    let t348 = P::triple([P::lane(t288, 2), P::lane(t318, 2), P::lane(t304, 2)]);
-    let t349 = P::triple([c(0.0), c(0.0), P::lane(t304, 1) + P::lane(t304, 0)]);
-    let t350 = P::triple([P::lane(t311, 0), -P::lane(t309, 0), P::lane(t312, 0)]);
-    let t351 = P::triple([P::lane(t311, 1), -P::lane(t309, 1), P::lane(t312, 1)]);
+    let t362 = P::triple([P::lane(t295, 2), P::lane(t333, 2), P::lane(t319, 2)]);
+    let t363 = P::triple([c(0.0), c(0.0), P::lane(t319, 1) + P::lane(t319, 0)]);
+    let t364 = P::triple([-P::lane(t325, 0), P::lane(t330, 0), -P::lane(t326, 0)]);
+    let t365 = P::triple([-P::lane(t325, 1), P::lane(t330, 1), -P::lane(t326, 1)]);
     // mass matrix M_p of the platform
-    let t352 = t288 + t343;
+    let t366 = P::triple([P::lane(t321, 2), P::lane(t318, 2), P::lane(t322, 2)]);
+    let t367 = P::triple([P::lane(t323, 2), P::lane(t324, 2), P::lane(t320, 2)]);
+    let t368 = t295 + t360;
     // acceleration per platform coordinate of points of the platform
-    let t353 = mul_sub(t70, t300, t148 * t331);
+    let t369 = mul_sub(t70, t310, t148 * t342);
     // inertia force less weight, without the actuators' own shares
-    let t354 = mul_add(t176, w(8.139999999999999), t320 + t321 + t332);
+    let t370 = mul_add(t174, w(8.139999999999999), t334 + t335 + t343);
     // moment of the legs' inertia at their joints about the platform origin
-    let t355 = P::triple([-P::lane(t302, 2), P::lane(t306, 2), P::lane(t307, 2)]);
+    let t371 = P::triple([-P::lane(t312, 2), P::lane(t315, 2), P::lane(t316, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t356 = t338 * P::splat(platform_acceleration[1]);
+    let t372 = t351 * P::splat(platform_acceleration[1]);
     // legs 5, 6, 2: gradient of the actuator length
-    let t357 = P::triple([P::lane(t159, 1), P::lane(t159, 2), P::lane(t159, 0)]);
+    let t373 = P::triple([P::lane(t151, 1), P::lane(t151, 2), P::lane(t151, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t358 = mul_sub(t341, t344, t334 * t335);
+    let t374 = mul_sub(t354, t361, t345 * t346);
     // mass matrix of the legs
-    let t359 = t260 + t278;
+    let t375 = P::triple([P::lane(t317, 2), P::lane(t327, 2), P::lane(t328, 2)]);
+    // mass matrix M_p of the platform
+    let t376 = t347 + t348 + t366;
+    let t377 = t349 + t350 + t367;
     // moment of the legs' inertia at their joints about the platform origin
-    let t360 = t339 + t340 + t355;
+    let t378 = t352 + t353 + t371;
     // force along the actuator that balances the remaining wrench
-    let t361 = mul_sub(t334, t357, t341 * t342);
-    // mass matrix M_p of the platform
-    let t362 = P::lane(t316, 2) + (P::lane(t316, 1) + P::lane(t316, 0));
+    let t379 = mul_sub(t345, t373, t354 * t355);
     // mass matrix of the legs
-    let t363 = P::triple([P::lane(t311, 2), -P::lane(t309, 2), P::lane(t312, 2)]);
+    let t380 = t356 + t357 + t375;
+    let t381 = mul_sub(t251, t306, mul_sub(t211, t291, t210 * t269));
+    let t382 = P::triple([-P::lane(t325, 2), P::lane(t330, 2), -P::lane(t326, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t364 = P::triple([P::lane(t333, 2), P::lane(t333, 0), P::lane(t333, 1)]);
+    let t383 = P::triple([P::lane(t344, 2), P::lane(t344, 0), P::lane(t344, 1)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t365 = P::triple([P::lane(t323, 0), P::lane(t324, 0), P::lane(t325, 0)]);
-    let t366 = P::triple([P::lane(t323, 1), P::lane(t324, 1), P::lane(t325, 1)]);
+    let t384 = P::triple([P::lane(t338, 0), P::lane(t339, 0), P::lane(t340, 0)]);
+    let t385 = P::triple([P::lane(t338, 1), P::lane(t339, 1), P::lane(t340, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t367 = mul_add(t352, P::splat(platform_acceleration[0]), t356);
-    // mass matrix M_p of the platform
-    let t368 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
+    let t386 = mul_add(t368, P::splat(platform_acceleration[0]), t372);
     // mass matrix of the legs
-    let t369 = mul_add(t250, t313, mul_sub(t210, t287, t209 * t263));
-    let t370 = t350 + t351 + t363;
-    let t371 = t348 + t349 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+    let t387 = t364 + t365 + t382;
+    let t388 = t362 + t363 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
     // inertia force less weight, without the actuators' own shares
-    let t372 = mul_add(t353, w(0.188852), t354);
+    let t389 = mul_add(t369, w(0.188852), t370);
     // first moments by platform coordinate of the payload's inertia force
-    let t373 = t189 * w(0.032245600000000006);
+    let t390 = t188 * w(0.032245600000000006);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t374 = P::triple([P::lane(t323, 2), P::lane(t324, 2), P::lane(t325, 2)]);
+    let t391 = P::triple([P::lane(t338, 2), P::lane(t339, 2), P::lane(t340, 2)]);
     // mass matrix M_p of the platform
-    let t375 = P::mul_sub(platform_rotation[1][2], c(0.188852), t368);
-    mass_matrix_p[2][3] = t375;
-    mass_matrix_p[3][2] = t375;
-    let t376 = P::lane(t329, 2) + (P::lane(t329, 1) + P::lane(t329, 0));
-    let t377 = P::lane(t328, 2) + (P::lane(t328, 1) + P::lane(t328, 0));
+    let t392 = P::neg_mul_add(platform_rotation[2][2], c(0.188852), P::lane(t376, 0));
+    mass_matrix_p[1][3] = t392;
+    mass_matrix_p[3][1] = t392;
+    let t393 = P::mul_sub(platform_rotation[1][2], c(0.188852), P::lane(t377, 0));
+    mass_matrix_p[2][3] = t393;
+    mass_matrix_p[3][2] = t393;
     // force along the actuator that balances the remaining wrench
-    let t378 = t173 * P::splat(P::lane(t358, 0));
+    let t394 = t170 * P::splat(P::lane(t374, 0));
+    // mass matrix of the legs
+    let t395 = neg_mul_add(t250, t286, t381);
     // rotation of the platform seen from the base
-    let t379 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t396 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t380 = P::triple([P::lane(t333, 1), P::lane(t333, 2), P::lane(t333, 0)]);
+    let t397 = P::triple([P::lane(t344, 1), P::lane(t344, 2), P::lane(t344, 0)]);
     // inertia less external wrench that the actuators must balance
-    let t381 = mul_add(t371, P::splat(platform_acceleration[2]), t367);
-    // mass matrix M_p of the platform
-    let t382 = P::lane(t336, 2) + (P::lane(t336, 1) + P::lane(t336, 0));
-    let t383 = P::lane(t337, 2) + (P::lane(t337, 1) + P::lane(t337, 0));
+    let t398 = mul_add(t388, P::splat(platform_acceleration[2]), t386);
     // force along the actuator that balances the remaining wrench
-    let t384 = mul_sub(t335, t342, t344 * t357);
+    let t399 = mul_sub(t346, t355, t361 * t373);
     // legs 1, 3, 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t385 = mul_sub(t174, t250, t173 * t258);
-    let t386 = mul_sub(t158, t258, t174 * t243);
-    let t387 = mul_sub(t173, t243, t158 * t250);
-    // mass matrix of the legs
-    let t388 = neg_mul_add(t243, t282, t369);
-    let t389 = P::lane(t347, 1) + P::lane(t347, 0);
+    let t400 = mul_sub(t171, t251, t170 * t266);
+    let t401 = mul_sub(t160, t266, t171 * t250);
+    let t402 = mul_sub(t170, t250, t160 * t251);
     // moment of the inertia force about the platform origin
-    let t390 = neg_mul_add(t379, t380, mul_add(t109, t364, t360));
+    let t403 = neg_mul_add(t396, t397, mul_add(t109, t383, t378));
     // constant and copied elements
-    let t391 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix of the legs
-    let t392 = -(P::lane(t322, 2) + (P::lane(t322, 1) + P::lane(t322, 0)));
-    mass_matrix_p[0][3] = t392;
-    mass_matrix_p[3][0] = t392;
-    // mass matrix M_p of the platform
-    let t393 = -P::mul_add(platform_rotation[2][2], c(0.188852), t362);
-    mass_matrix_p[1][3] = t393;
-    mass_matrix_p[3][1] = t393;
+    let t404 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // force along the actuator that balances the remaining wrench
-    let t394 = mul_add(t158, P::splat(P::lane(t361, 0)), t378);
-    let t395 = P::lane(t151, 1) * P::lane(t361, 1);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t396 = neg_mul_add(P::splat(P::lane(t372, 0)), t391, t365 + t366 + t374);
+    let t405 = mul_add(t160, P::splat(P::lane(t379, 0)), t394);
+    let t406 = P::lane(t159, 1) * P::lane(t379, 1);
     // mass matrix of the legs
-    let t397 = P::triple([t392, t393, t375]);
+    let t407 = -(P::lane(t359, 1) + P::lane(t359, 0));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t408 = neg_mul_add(P::splat(P::lane(t389, 0)), t404, t384 + t385 + t391);
+    // mass matrix of the legs
+    let t409 = P::triple([P::lane(t380, 0), t392, t393]);
     // mass matrix M_p of the platform
-    let t398 = P::mul_sub(platform_rotation[2][2], c(0.188852), t382);
-    mass_matrix_p[0][4] = t398;
-    mass_matrix_p[4][0] = t398;
-    let t399 = P::mul_sub(platform_rotation[0][2], c(0.188852), t383);
-    mass_matrix_p[1][5] = t399;
-    mass_matrix_p[5][1] = t399;
+    let t410 = P::neg_mul_add(platform_rotation[2][2], c(0.188852), P::lane(t380, 1));
+    let t411 = P::mul_add(platform_rotation[0][2], c(0.188852), P::lane(t377, 1));
+    let t412 = P::mul_add(platform_rotation[0][2], c(0.188852), P::lane(t376, 2));
+    mass_matrix_p[1][5] = t412;
+    mass_matrix_p[5][1] = t412;
     // constant and copied elements
-    let t400 =
+    let t413 =
         P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t401 = mul_sub(t165, t210, t159 * t204);
-    let t402 = mul_sub(t151, t204, t165 * t209);
-    let t403 = mul_sub(t159, t209, t151 * t210);
+    let t414 = mul_sub(t153, t211, t151 * t218);
+    let t415 = mul_sub(t159, t218, t153 * t210);
+    let t416 = mul_sub(t151, t210, t159 * t211);
     // mass matrix of the legs
-    let t404 = P::triple([P::lane(t370, 1), P::lane(t346, 2), P::lane(t347, 2)]);
-    let t405 = P::triple([c(0.0), P::lane(t346, 1) + P::lane(t346, 0), t389]);
+    let t417 = P::triple([P::lane(t387, 1), -P::lane(t358, 2), -P::lane(t359, 2)]);
+    let t418 = P::triple([c(0.0), -(P::lane(t358, 1) + P::lane(t358, 0)), t407]);
     // first moments by platform coordinate of the payload's inertia force
-    let t406 = mul_add(t176, w(0.188852), t353 * w(0.013354412));
-    let t407 = P::triple([P::lane(t373, 2), P::lane(t373, 0), P::lane(t373, 1)]);
+    let t419 = mul_add(t174, w(0.188852), t369 * w(0.013354412));
+    let t420 = P::triple([P::lane(t390, 2), P::lane(t390, 0), P::lane(t390, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t408 = mul_add(t397, P::splat(platform_acceleration[3]), t381);
+    let t421 = mul_add(t409, P::splat(platform_acceleration[3]), t398);
+    let t422 = t413 * w(0.031);
     // mass matrix of the legs
-    let t409 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
-    mass_matrix_p[1][4] = t409;
-    mass_matrix_p[4][1] = t409;
-    // inertia less external wrench that the actuators must balance
-    let t410 = t400 * w(0.031);
-    // mass matrix of the legs
-    let t411 = t404 + t405;
+    let t423 = t417 + t418;
     // force along the actuator that balances the remaining wrench
-    let t412 = P::mul_add(P::lane(t151, 0), P::lane(t361, 0), t395);
+    let t424 = P::mul_add(P::lane(t159, 0), P::lane(t379, 0), t406);
     // constant and copied elements
-    let t413 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t425 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t414 = -P::mul_add(platform_rotation[0][2], c(0.188852), t376);
-    mass_matrix_p[2][4] = t414;
-    mass_matrix_p[4][2] = t414;
-    let t415 = -P::mul_add(platform_rotation[1][2], c(0.188852), t377);
-    mass_matrix_p[0][5] = t415;
-    mass_matrix_p[5][0] = t415;
-    // mass matrix of the legs
-    let t416 = -(P::lane(t345, 2) + (P::lane(t345, 1) + P::lane(t345, 0)));
-    mass_matrix_p[2][5] = t416;
-    mass_matrix_p[5][2] = t416;
+    let t426 = -P::mul_add(platform_rotation[1][2], c(0.188852), P::lane(t380, 2));
+    mass_matrix_p[0][5] = t426;
+    mass_matrix_p[5][0] = t426;
     // force along the actuator that balances the remaining wrench
-    let t417 = mul_add(t174, P::splat(P::lane(t384, 0)), t394);
-    let t418 = t173 * P::splat(P::lane(t358, 1));
+    let t427 = mul_add(t171, P::splat(P::lane(t399, 0)), t405);
+    let t428 = t170 * P::splat(P::lane(t374, 1));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t419 = mul_sub(P::splat(P::lane(t372, 1)), t413, t396);
+    let t429 = mul_sub(P::splat(P::lane(t389, 1)), t425, t408);
     // mass matrix M_p of the platform
-    let t420 = P::triple([t398, t409, t414]);
-    let t421 = P::triple([t415, t399, t416]);
+    let t430 = P::triple([t410, P::lane(t376, 1), t411]);
+    let t431 = P::triple([t426, t412, P::lane(t377, 2)]);
     // constant and copied elements
-    let t422 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    let t423 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t424 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    let t432 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t433 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t434 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
     // mass matrix M_p of the platform
-    let t425 = t370 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
-    let t426 = platform_rotation[0][0] * c(0.032245600000000006);
+    let t435 = t387 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t436 = platform_rotation[0][0] * c(0.032245600000000006);
     // rotation of the platform seen from the base
-    let t427 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t437 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t428 = P::triple([P::lane(t373, 1), P::lane(t373, 2), P::lane(t373, 0)]);
+    let t438 = P::triple([P::lane(t390, 1), P::lane(t390, 2), P::lane(t390, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t429 = mul_add(t310, t401, t303 * t385);
-    let t430 = mul_add(t310, t402, t303 * t386);
-    let t431 = mul_add(t310, t403, t303 * t387);
+    let t439 = mul_add(t329, t414, t313 * t400);
+    let t440 = mul_add(t329, t415, t313 * t401);
+    let t441 = mul_add(t329, t416, t313 * t402);
     // inertia less external wrench that the actuators must balance
-    let t432 = mul_sub(t421, P::splat(platform_acceleration[5]), t422);
+    let t442 = neg_mul_add(t430, P::splat(platform_acceleration[4]), t421);
     // moment of the inertia force about the platform origin
-    let t433 = neg_mul_add(t427, t428, mul_add(t130, t407, t390));
+    let t443 = neg_mul_add(t437, t438, mul_add(t130, t420, t403));
     // force along the actuator that balances the remaining wrench
-    let t434 = mul_add(t158, P::splat(P::lane(t361, 1)), t418);
-    let t435 = P::mul_add(P::lane(t151, 2), P::lane(t361, 2), t412);
+    let t444 = mul_add(t160, P::splat(P::lane(t379, 1)), t428);
+    let t445 = P::mul_add(P::lane(t159, 2), P::lane(t379, 2), t424);
     // constant and copied elements
-    let t436 =
+    let t446 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t437 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t447 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // force along the actuator that balances the remaining wrench
-    let t438 = t173 * P::splat(P::lane(t358, 2));
+    let t448 = t170 * P::splat(P::lane(t374, 2));
     // mass matrix M_p of the platform
-    let t439 = neg_mul_add(P::splat(t426), t436, t425);
-    let t440 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    let t449 = neg_mul_add(P::splat(t436), t446, t435);
+    let t450 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
     // constant and copied elements
-    let t441 =
+    let t451 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t442 = mul_add(P::splat(P::lane(t372, 2)), t437, t419);
+    let t452 = mul_add(P::splat(P::lane(t389, 2)), t447, t429);
+    // mass matrix of the legs
+    let t453 = -P::lane(t376, 1);
+    mass_matrix_p[1][4] = t453;
+    mass_matrix_p[4][1] = t453;
     // constant and copied elements
-    let t443 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t454 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t444 = P::triple([P::lane(t410, 1), P::lane(t410, 2), P::lane(t410, 0)]);
+    let t455 = P::triple([P::lane(t422, 1), P::lane(t422, 2), P::lane(t422, 0)]);
     // mass matrix of the legs
-    let t445 = P::triple([P::lane(t370, 2), P::lane(t411, 2), P::lane(t388, 2)]);
-    let t446 = P::triple([c(0.0), c(0.0), P::lane(t388, 1) + P::lane(t388, 0)]);
+    let t456 = P::triple([P::lane(t387, 2), P::lane(t423, 2), -P::lane(t395, 2)]);
+    let t457 = P::triple([c(0.0), c(0.0), -(P::lane(t395, 1) + P::lane(t395, 0))]);
     // mass matrix M_p of the platform
-    let t447 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t458 = platform_rotation[0][1] * c(0.032245600000000006);
     // mass matrix of the legs
-    let t448 = t411 + t440;
+    let t459 = t423 + t450;
     // first moments by platform coordinate of the payload's inertia force
-    let t449 = P::triple([P::lane(t406, 2), P::lane(t406, 0), P::lane(t406, 1)]);
+    let t460 = P::triple([P::lane(t419, 2), P::lane(t419, 0), P::lane(t419, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t450 = mul_add(t420, P::splat(platform_acceleration[4]), t408) + t432;
+    let t461 = t442 + mul_sub(t431, P::splat(platform_acceleration[5]), t432);
     // mass matrix M_p of the platform
-    let t451 = P::triple([t393, t409, t399]);
+    let t462 = P::triple([t392, t453, t412]);
     // inertia less external wrench that the actuators must balance
-    let t452 = neg_mul_add(t443, t444, mul_add(t410, t424, t423));
-    let t453 = P::splat(platform_acceleration[1]) * t451;
+    let t463 = neg_mul_add(t454, t455, mul_add(t422, t434, t433));
+    let t464 = P::splat(platform_acceleration[1]) * t462;
     // force along the actuator that balances the remaining wrench
-    let t454 = mul_add(t174, P::splat(P::lane(t384, 1)), t434);
-    let t455 = mul_add(t158, P::splat(P::lane(t361, 2)), t438);
-    let t456 = mul_sub(t386, P::splat(t435), t417 * P::splat(P::lane(t402, 0)));
-    let t457 = mul_sub(t387, P::splat(t435), t417 * P::splat(P::lane(t403, 0)));
+    let t465 = mul_add(t171, P::splat(P::lane(t399, 1)), t444);
+    let t466 = mul_add(t160, P::splat(P::lane(t379, 2)), t448);
+    let t467 = mul_sub(t401, P::splat(t445), t427 * P::splat(P::lane(t415, 0)));
+    let t468 = mul_sub(t402, P::splat(t445), t427 * P::splat(P::lane(t416, 0)));
     // constant and copied elements
-    let t458 =
+    let t469 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    let t459 =
+    let t470 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t460 = neg_mul_add(P::splat(t447), t458, t439);
+    let t471 = -t410;
+    mass_matrix_p[0][4] = t471;
+    mass_matrix_p[4][0] = t471;
+    let t472 = -t411;
+    mass_matrix_p[2][4] = t472;
+    mass_matrix_p[4][2] = t472;
+    let t473 = neg_mul_add(P::splat(t458), t469, t449);
     // constant and copied elements
-    let t461 =
+    let t474 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
     // mass matrix M_p of the platform
-    let t462 = neg_mul_add(w(0.032245600000000006) * t441, t459, t448);
-    let t463 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    let t475 = neg_mul_add(w(0.032245600000000006) * t451, t470, t459);
+    let t476 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
     // inertia less external wrench that the actuators must balance
-    let t464 = t442 + t450;
+    let t477 = t452 + t461;
     // mass matrix of the legs
-    let t465 = P::triple([t392, t398, t415]);
+    let t478 = P::triple([P::lane(t380, 0), t471, t426]);
     // mass matrix M_p of the platform
-    let t466 = P::triple([t375, t414, t416]);
-    let t467 = platform_rotation[0][2] * c(0.013354412);
+    let t479 = P::triple([t393, t472, P::lane(t377, 2)]);
+    let t480 = platform_rotation[0][2] * c(0.013354412);
     // mass matrix of the legs
-    let t468 = t445 + t446 + t463;
+    let t481 = t456 + t457 + t476;
     // mass matrix M_p of the platform
-    let t469 = w(0.032245600000000006) * t436;
+    let t482 = w(0.032245600000000006) * t446;
     // rotation of the platform seen from the base
-    let t470 = P::triple([P::lane(t257, 2), P::lane(t257, 0), P::lane(t257, 1)]);
+    let t483 = P::triple([P::lane(t265, 2), P::lane(t265, 0), P::lane(t265, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t471 = P::triple([P::lane(t406, 1), P::lane(t406, 2), P::lane(t406, 0)]);
+    let t484 = P::triple([P::lane(t419, 1), P::lane(t419, 2), P::lane(t419, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t472 = P::triple([P::lane(t429, 0), P::lane(t430, 0), P::lane(t431, 0)]);
-    let t473 = P::triple([P::lane(t429, 1), P::lane(t430, 1), P::lane(t431, 1)]);
+    let t485 = P::triple([P::lane(t439, 0), P::lane(t440, 0), P::lane(t441, 0)]);
+    let t486 = P::triple([P::lane(t439, 1), P::lane(t440, 1), P::lane(t441, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t474 = mul_sub(P::splat(platform_acceleration[2]), t466, t452);
+    let t487 = mul_sub(P::splat(platform_acceleration[2]), t479, t463);
     // moment of the inertia force about the platform origin
-    let t475 = neg_mul_add(t470, t471, mul_add(t294, t449, t433));
+    let t488 = neg_mul_add(t483, t484, mul_add(t307, t460, t443));
     // force along the actuator that balances the remaining wrench
-    let t476 = mul_add(t174, P::splat(P::lane(t384, 2)), t455);
-    let t477 = neg_mul_add(P::splat(P::lane(t402, 1)), t454, t456);
-    let t478 = neg_mul_add(P::splat(P::lane(t403, 1)), t454, t457);
+    let t489 = mul_add(t171, P::splat(P::lane(t399, 2)), t466);
+    let t490 = neg_mul_add(P::splat(P::lane(t415, 1)), t465, t467);
+    let t491 = neg_mul_add(P::splat(P::lane(t416, 1)), t465, t468);
     // constant and copied elements
-    let t479 =
+    let t492 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t480 =
+    let t493 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t481 = neg_mul_add(P::splat(t467), t479, t460);
+    let t494 = neg_mul_add(P::splat(t480), t492, t473);
     // constant and copied elements
-    let t482 =
+    let t495 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // mass matrix M_p of the platform
-    let t483 = neg_mul_add(w(0.032245600000000006) * t461, t480, t462);
-    let t484 = neg_mul_add(P::splat(platform_rotation[2][0]), t469, t468);
+    let t496 = neg_mul_add(w(0.032245600000000006) * t474, t493, t475);
+    let t497 = neg_mul_add(P::splat(platform_rotation[2][0]), t482, t481);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t485 = P::triple([P::lane(t429, 2), P::lane(t430, 2), P::lane(t431, 2)]);
+    let t498 = P::triple([P::lane(t439, 2), P::lane(t440, 2), P::lane(t441, 2)]);
     // mass matrix M_p of the platform
-    let t486 = w(0.032245600000000006) * t458;
+    let t499 = w(0.032245600000000006) * t469;
     // inertia less external wrench that the actuators must balance
-    let t487 = mul_add(P::splat(platform_acceleration[0]), t465, t453) + t474;
+    let t500 = mul_add(P::splat(platform_acceleration[0]), t478, t464) + t487;
     // force along the actuator that balances the remaining wrench
-    let t488 = neg_mul_add(P::splat(P::lane(t402, 2)), t476, t477);
-    let t489 = neg_mul_add(P::splat(P::lane(t403, 2)), t476, t478);
+    let t501 = neg_mul_add(P::splat(P::lane(t415, 2)), t489, t490);
+    let t502 = neg_mul_add(P::splat(P::lane(t416, 2)), t489, t491);
     // constant and copied elements
-    let t490 =
+    let t503 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
     // force along the actuator that balances the remaining wrench
-    let t491 = t358 * P::splat(P::lane(t464, 1));
+    let t504 = t374 * P::splat(P::lane(t477, 1));
     // mass matrix M_p of the platform
-    let t492 = neg_mul_add(w(0.013354412) * t482, t490, t483);
-    let t493 = neg_mul_add(P::splat(platform_rotation[2][1]), t486, t484);
+    let t505 = neg_mul_add(w(0.013354412) * t495, t503, t496);
+    let t506 = neg_mul_add(P::splat(platform_rotation[2][1]), t499, t497);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t494 = neg_mul_add(t391, P::splat(P::lane(t475, 0)), t472 + t473 + t485);
+    let t507 = neg_mul_add(t404, P::splat(P::lane(t488, 0)), t485 + t486 + t498);
     // inertia less external wrench that the actuators must balance
-    let t495 = mul_add(P::splat(platform_acceleration[3]), t481, t487);
+    let t508 = mul_add(P::splat(platform_acceleration[3]), t494, t500);
     // mass matrix M_p of the platform
-    let t496 = w(0.013354412) * t479;
+    let t509 = w(0.013354412) * t492;
     // force along the actuator that balances the remaining wrench
-    let t497 = mul_add(t361, P::splat(P::lane(t464, 0)), t491);
-    let t498 = mul_sub(t385, P::splat(t435), t417 * P::splat(P::lane(t401, 0)));
+    let t510 = mul_add(t379, P::splat(P::lane(t477, 0)), t504);
+    let t511 = mul_sub(t400, P::splat(t445), t427 * P::splat(P::lane(t414, 0)));
     // mass matrix M_p of the platform
-    let t499 = neg_mul_add(P::splat(platform_rotation[2][2]), t496, t493);
+    let t512 = neg_mul_add(P::splat(platform_rotation[2][2]), t509, t506);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t500 = mul_sub(t413, P::splat(P::lane(t475, 1)), t494);
+    let t513 = mul_sub(t425, P::splat(P::lane(t488, 1)), t507);
     // inertia less external wrench that the actuators must balance
-    let t501 = mul_add(P::splat(platform_acceleration[4]), t492, t495);
+    let t514 = mul_add(P::splat(platform_acceleration[4]), t505, t508);
     // force along the actuator that balances the remaining wrench
-    let t502 = mul_add(t384, P::splat(P::lane(t464, 2)), t497);
-    let t503 = neg_mul_add(t454, P::splat(P::lane(t401, 1)), t498);
-    let t504 = P::triple([P::lane(t488, 2), P::lane(t488, 0), P::lane(t488, 1)]);
-    let t505 = P::triple([P::lane(t489, 1), P::lane(t489, 2), P::lane(t489, 0)]);
+    let t515 = mul_add(t399, P::splat(P::lane(t477, 2)), t510);
+    let t516 = neg_mul_add(t465, P::splat(P::lane(t414, 1)), t511);
+    let t517 = P::triple([P::lane(t501, 2), P::lane(t501, 0), P::lane(t501, 1)]);
+    let t518 = P::triple([P::lane(t502, 1), P::lane(t502, 2), P::lane(t502, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t506 = mul_add(t437, P::splat(P::lane(t475, 2)), t500);
+    let t519 = mul_add(t447, P::splat(P::lane(t488, 2)), t513);
     // force along the actuator that balances the remaining wrench
-    let t507 = P::triple([P::lane(t488, 1), P::lane(t488, 2), P::lane(t488, 0)]);
-    let t508 = P::triple([P::lane(t489, 2), P::lane(t489, 0), P::lane(t489, 1)]);
-    let t509 = neg_mul_add(t476, P::splat(P::lane(t401, 2)), t503);
-    let t510 = mul_sub(t507, t508, t504 * t505);
+    let t520 = P::triple([P::lane(t501, 1), P::lane(t501, 2), P::lane(t501, 0)]);
+    let t521 = P::triple([P::lane(t502, 2), P::lane(t502, 0), P::lane(t502, 1)]);
+    let t522 = neg_mul_add(t489, P::splat(P::lane(t414, 2)), t516);
+    let t523 = mul_sub(t520, t521, t517 * t518);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t511 = P::triple([P::lane(t401, 0), P::lane(t402, 0), P::lane(t403, 0)]);
+    let t524 = P::triple([P::lane(t414, 0), P::lane(t415, 0), P::lane(t416, 0)]);
     // inertia less external wrench that the actuators must balance
-    let t512 = t506 + mul_add(P::splat(platform_acceleration[5]), t499, t501);
+    let t525 = t519 + mul_add(P::splat(platform_acceleration[5]), t512, t514);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t513 = P::triple([P::lane(t401, 1), P::lane(t402, 1), P::lane(t403, 1)]);
+    let t526 = P::triple([P::lane(t414, 1), P::lane(t415, 1), P::lane(t416, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t514 = mul_sub(P::splat(t435), t512, P::splat(P::lane(t502, 0)) * t511);
+    let t527 = mul_sub(P::splat(t445), t525, P::splat(P::lane(t515, 0)) * t524);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t515 = P::triple([P::lane(t401, 2), P::lane(t402, 2), P::lane(t403, 2)]);
+    let t528 = P::triple([P::lane(t414, 2), P::lane(t415, 2), P::lane(t416, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t516 = P::lane(t509, 1) * P::lane(t510, 1);
-    let t517 = P::triple([P::lane(t509, 1), P::lane(t509, 2), P::lane(t509, 0)]);
-    let t518 = neg_mul_add(P::splat(P::lane(t502, 1)), t513, t514);
-    let t519 = P::triple([P::lane(t509, 2), P::lane(t509, 0), P::lane(t509, 1)]);
-    let t520 = P::mul_add(P::lane(t509, 0), P::lane(t510, 0), t516);
-    let t521 = neg_mul_add(P::splat(P::lane(t502, 2)), t515, t518);
-    let t522 = P::triple([P::lane(t417, 0), P::lane(t454, 0), P::lane(t476, 0)]);
-    let t523 = mul_sub(t504, t517, t507 * t519);
-    let t524 = c(1.0) / P::mul_add(P::lane(t509, 2), P::lane(t510, 2), t520);
-    let t525 = P::triple([P::lane(t417, 1), P::lane(t454, 1), P::lane(t476, 1)]);
-    let t526 = mul_sub(t505, t519, t508 * t517) * P::splat(P::lane(t521, 1));
-    let t527 = mul_add(t510, P::splat(P::lane(t521, 0)), t526);
-    let t528 = P::triple([P::lane(t417, 2), P::lane(t454, 2), P::lane(t476, 2)]);
-    let t529 = P::splat(t524) * mul_add(t523, P::splat(P::lane(t521, 2)), t527);
-    let t530 = neg_mul_add(t522, P::splat(P::lane(t529, 0)), t502);
-    let t531 = neg_mul_add(t525, P::splat(P::lane(t529, 1)), t530);
-    let t532 = neg_mul_add(t528, P::splat(P::lane(t529, 2)), t531);
-    let t533 = P::splat(c(1.0) / t435) * t532;
+    let t529 = P::lane(t522, 1) * P::lane(t523, 1);
+    let t530 = P::triple([P::lane(t522, 1), P::lane(t522, 2), P::lane(t522, 0)]);
+    let t531 = neg_mul_add(P::splat(P::lane(t515, 1)), t526, t527);
+    let t532 = P::triple([P::lane(t522, 2), P::lane(t522, 0), P::lane(t522, 1)]);
+    let t533 = P::mul_add(P::lane(t522, 0), P::lane(t523, 0), t529);
+    let t534 = neg_mul_add(P::splat(P::lane(t515, 2)), t528, t531);
+    let t535 = P::triple([P::lane(t427, 0), P::lane(t465, 0), P::lane(t489, 0)]);
+    let t536 = mul_sub(t517, t530, t520 * t532);
+    let t537 = c(1.0) / P::mul_add(P::lane(t522, 2), P::lane(t523, 2), t533);
+    let t538 = P::triple([P::lane(t427, 1), P::lane(t465, 1), P::lane(t489, 1)]);
+    let t539 = mul_sub(t518, t532, t521 * t530) * P::splat(P::lane(t534, 1));
+    let t540 = mul_add(t523, P::splat(P::lane(t534, 0)), t539);
+    let t541 = P::triple([P::lane(t427, 2), P::lane(t465, 2), P::lane(t489, 2)]);
+    let t542 = P::splat(t537) * mul_add(t536, P::splat(P::lane(t534, 2)), t540);
+    let t543 = neg_mul_add(t535, P::splat(P::lane(t542, 0)), t515);
+    let t544 = neg_mul_add(t538, P::splat(P::lane(t542, 1)), t543);
+    let t545 = neg_mul_add(t541, P::splat(P::lane(t542, 2)), t544);
+    let t546 = P::splat(c(1.0) / t445) * t545;
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t126, 0);
     // leg 2: actuator length d
@@ -22978,102 +22947,110 @@ pub fn control_in_lanes<P: Triple>(
     // leg 6: actuator length d
     actuator_length[5] = P::lane(t103, 2);
     // leg 1: rate of the rod's extent along the actuator axis
-    actuator_velocity[0] = P::lane(t188, 0);
+    actuator_velocity[0] = P::lane(t187, 0);
     // leg 2: rate of the rod's extent along the actuator axis
-    actuator_velocity[1] = P::lane(t167, 0);
+    actuator_velocity[1] = P::lane(t165, 0);
     // leg 3: rate of the rod's extent along the actuator axis
-    actuator_velocity[2] = P::lane(t188, 1);
+    actuator_velocity[2] = P::lane(t187, 1);
     // leg 4: rate of the rod's extent along the actuator axis
-    actuator_velocity[3] = P::lane(t188, 2);
+    actuator_velocity[3] = P::lane(t187, 2);
     // leg 5: rate of the rod's extent along the actuator axis
-    actuator_velocity[4] = P::lane(t167, 1);
+    actuator_velocity[4] = P::lane(t165, 1);
     // leg 6: rate of the rod's extent along the actuator axis
-    actuator_velocity[5] = P::lane(t167, 2);
+    actuator_velocity[5] = P::lane(t165, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t158, 0);
-    jacobian_dp[0][1] = P::lane(t173, 0);
-    jacobian_dp[0][2] = P::lane(t174, 0);
+    jacobian_dp[0][0] = P::lane(t160, 0);
+    jacobian_dp[0][1] = P::lane(t170, 0);
+    jacobian_dp[0][2] = P::lane(t171, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t385, 0);
-    jacobian_dp[0][4] = P::lane(t386, 0);
-    jacobian_dp[0][5] = P::lane(t387, 0);
+    jacobian_dp[0][3] = P::lane(t400, 0);
+    jacobian_dp[0][4] = P::lane(t401, 0);
+    jacobian_dp[0][5] = P::lane(t402, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t151, 0);
-    jacobian_dp[1][1] = P::lane(t159, 0);
-    jacobian_dp[1][2] = P::lane(t165, 0);
+    jacobian_dp[1][0] = P::lane(t159, 0);
+    jacobian_dp[1][1] = P::lane(t151, 0);
+    jacobian_dp[1][2] = P::lane(t153, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t401, 0);
-    jacobian_dp[1][4] = P::lane(t402, 0);
-    jacobian_dp[1][5] = P::lane(t403, 0);
+    jacobian_dp[1][3] = P::lane(t414, 0);
+    jacobian_dp[1][4] = P::lane(t415, 0);
+    jacobian_dp[1][5] = P::lane(t416, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t158, 1);
-    jacobian_dp[2][1] = P::lane(t173, 1);
-    jacobian_dp[2][2] = P::lane(t174, 1);
+    jacobian_dp[2][0] = P::lane(t160, 1);
+    jacobian_dp[2][1] = P::lane(t170, 1);
+    jacobian_dp[2][2] = P::lane(t171, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t385, 1);
-    jacobian_dp[2][4] = P::lane(t386, 1);
-    jacobian_dp[2][5] = P::lane(t387, 1);
+    jacobian_dp[2][3] = P::lane(t400, 1);
+    jacobian_dp[2][4] = P::lane(t401, 1);
+    jacobian_dp[2][5] = P::lane(t402, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t158, 2);
-    jacobian_dp[3][1] = P::lane(t173, 2);
-    jacobian_dp[3][2] = P::lane(t174, 2);
+    jacobian_dp[3][0] = P::lane(t160, 2);
+    jacobian_dp[3][1] = P::lane(t170, 2);
+    jacobian_dp[3][2] = P::lane(t171, 2);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t385, 2);
-    jacobian_dp[3][4] = P::lane(t386, 2);
-    jacobian_dp[3][5] = P::lane(t387, 2);
+    jacobian_dp[3][3] = P::lane(t400, 2);
+    jacobian_dp[3][4] = P::lane(t401, 2);
+    jacobian_dp[3][5] = P::lane(t402, 2);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t151, 1);
-    jacobian_dp[4][1] = P::lane(t159, 1);
-    jacobian_dp[4][2] = P::lane(t165, 1);
+    jacobian_dp[4][0] = P::lane(t159, 1);
+    jacobian_dp[4][1] = P::lane(t151, 1);
+    jacobian_dp[4][2] = P::lane(t153, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t401, 1);
-    jacobian_dp[4][4] = P::lane(t402, 1);
-    jacobian_dp[4][5] = P::lane(t403, 1);
+    jacobian_dp[4][3] = P::lane(t414, 1);
+    jacobian_dp[4][4] = P::lane(t415, 1);
+    jacobian_dp[4][5] = P::lane(t416, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t151, 2);
-    jacobian_dp[5][1] = P::lane(t159, 2);
-    jacobian_dp[5][2] = P::lane(t165, 2);
+    jacobian_dp[5][0] = P::lane(t159, 2);
+    jacobian_dp[5][1] = P::lane(t151, 2);
+    jacobian_dp[5][2] = P::lane(t153, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t401, 2);
-    jacobian_dp[5][4] = P::lane(t402, 2);
-    jacobian_dp[5][5] = P::lane(t403, 2);
+    jacobian_dp[5][3] = P::lane(t414, 2);
+    jacobian_dp[5][4] = P::lane(t415, 2);
+    jacobian_dp[5][5] = P::lane(t416, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t352, 0);
+    mass_matrix_p[0][0] = P::lane(t368, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t288, 1);
-    mass_matrix_p[0][2] = P::lane(t288, 2);
-    mass_matrix_p[1][0] = P::lane(t288, 1);
+    mass_matrix_p[0][1] = P::lane(t295, 1);
+    mass_matrix_p[0][2] = P::lane(t295, 2);
+    mass_matrix_p[0][3] = P::lane(t380, 0);
+    mass_matrix_p[1][0] = P::lane(t295, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t338, 1);
+    mass_matrix_p[1][1] = P::lane(t351, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t318, 2);
-    mass_matrix_p[2][0] = P::lane(t288, 2);
-    mass_matrix_p[2][1] = P::lane(t318, 2);
+    mass_matrix_p[1][2] = P::lane(t333, 2);
+    mass_matrix_p[2][0] = P::lane(t295, 2);
+    mass_matrix_p[2][1] = P::lane(t333, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t371, 2);
-    mass_matrix_p[3][3] = P::lane(t481, 0);
-    mass_matrix_p[3][4] = P::lane(t481, 1);
-    mass_matrix_p[3][5] = P::lane(t481, 2);
-    mass_matrix_p[4][3] = P::lane(t481, 1);
-    mass_matrix_p[4][4] = P::lane(t492, 1);
-    mass_matrix_p[4][5] = P::lane(t492, 2);
-    mass_matrix_p[5][3] = P::lane(t481, 2);
-    mass_matrix_p[5][4] = P::lane(t492, 2);
-    mass_matrix_p[5][5] = P::lane(t499, 2);
+    mass_matrix_p[2][2] = P::lane(t388, 2);
+    // mass matrix of the legs
+    mass_matrix_p[2][5] = P::lane(t377, 2);
+    mass_matrix_p[3][0] = P::lane(t380, 0);
+    // mass matrix M_p of the platform
+    mass_matrix_p[3][3] = P::lane(t494, 0);
+    mass_matrix_p[3][4] = P::lane(t494, 1);
+    mass_matrix_p[3][5] = P::lane(t494, 2);
+    mass_matrix_p[4][3] = P::lane(t494, 1);
+    mass_matrix_p[4][4] = P::lane(t505, 1);
+    mass_matrix_p[4][5] = P::lane(t505, 2);
+    // mass matrix of the legs
+    mass_matrix_p[5][2] = P::lane(t377, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[5][3] = P::lane(t494, 2);
+    mass_matrix_p[5][4] = P::lane(t505, 2);
+    mass_matrix_p[5][5] = P::lane(t512, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t442, 0);
-    total_bias[1] = P::lane(t442, 1);
-    total_bias[2] = P::lane(t442, 2);
-    total_bias[3] = P::lane(t506, 0);
-    total_bias[4] = P::lane(t506, 1);
-    total_bias[5] = P::lane(t506, 2);
+    total_bias[0] = P::lane(t452, 0);
+    total_bias[1] = P::lane(t452, 1);
+    total_bias[2] = P::lane(t452, 2);
+    total_bias[3] = P::lane(t519, 0);
+    total_bias[4] = P::lane(t519, 1);
+    total_bias[5] = P::lane(t519, 2);
     // force along the actuator that balances the remaining wrench
-    inverse_dynamics[0] = P::lane(t529, 0);
-    inverse_dynamics[1] = P::lane(t533, 0);
-    inverse_dynamics[2] = P::lane(t529, 1);
-    inverse_dynamics[3] = P::lane(t529, 2);
-    inverse_dynamics[4] = P::lane(t533, 1);
-    inverse_dynamics[5] = P::lane(t533, 2);
+    inverse_dynamics[0] = P::lane(t542, 0);
+    inverse_dynamics[1] = P::lane(t546, 0);
+    inverse_dynamics[2] = P::lane(t542, 1);
+    inverse_dynamics[3] = P::lane(t542, 2);
+    inverse_dynamics[4] = P::lane(t546, 1);
+    inverse_dynamics[5] = P::lane(t546, 2);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).
@@ -23125,100 +23102,101 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t9 = P::triple([c(-0.03105828541230249), c(0.03105828541230249), c(0.1159110991546882)]);
     let t10 = P::triple([c(0.1159110991546882), c(0.1159110991546882), c(-0.031058285412302475)]);
-    let t11 = P::triple([c(0.08485281374238571), c(-0.08485281374238571), c(-0.1159110991546882)]);
     // legs 1, 2, 3: platform joint from the base point
-    let t12 = P::triple([c(-0.1316436662914507), c(-0.1316436662914507), c(-0.040491189781895726)]);
+    let t11 = P::triple([c(-0.1316436662914507), c(-0.1316436662914507), c(-0.040491189781895726)]);
     // constant and copied elements
-    let t13 = P::triple([c(-0.0848528137423857), c(-0.0848528137423857), c(-0.031058285412302475)]);
+    let t12 = P::triple([c(0.08485281374238571), c(-0.08485281374238571), c(-0.1159110991546882)]);
+    // angular velocity of the base
+    let t13 = t1 * P::splat(base_velocity[4]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
     let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
-    // angular velocity of the base
-    let t17 = t1 * P::splat(base_velocity[4]);
+    // constant and copied elements
+    let t17 = P::triple([c(-0.0848528137423857), c(-0.0848528137423857), c(-0.031058285412302475)]);
     // legs 1, 2, 3: platform joint from the base point
     let t18 = P::triple([c(0.12275970481124972), c(-0.12275970481124972), c(-0.17538661166134234)]);
+    // angular velocity of the base
+    let t19 = mul_add(t2, P::splat(base_velocity[3]), t13);
     // angular velocity of the platform
-    let t19 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t20 = P::triple([c(0.17213485607334636), c(0.17213485607334636), c(-0.040491189781895726)]);
+    let t20 = t1 * P::splat(platform_velocity[4]);
     // platform origin seen from the base
     let t21 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
     // legs 1, 2, 3: platform joint from the platform origin
     let t22 = t9 * P::splat(P::lane(t14, 0));
     // legs 4, 5, 6: platform joint from the platform origin
-    let t23 = t11 * P::splat(P::lane(t14, 0));
+    let t23 = t12 * P::splat(P::lane(t14, 0));
     // angular velocity of the base
-    let t24 = mul_add(t2, P::splat(base_velocity[3]), t17);
+    let t24 = mul_add(t5, P::splat(base_velocity[5]), t19);
     // angular velocity of the platform
-    let t25 = mul_add(t2, P::splat(platform_velocity[3]), t19);
+    let t25 = mul_add(t2, P::splat(platform_velocity[3]), t20);
     // legs 1, 2, 3: platform joint from the platform origin
     let t26 = t9 * P::splat(P::lane(t14, 1));
     let t27 = mul_add(t10, P::splat(P::lane(t15, 0)), t22);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t28 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
-    let t29 = t11 * P::splat(P::lane(t14, 1));
+    let t28 = mul_add(t17, P::splat(P::lane(t15, 0)), t23);
+    let t29 = t12 * P::splat(P::lane(t14, 1));
     // legs 1, 2, 3: platform joint from the platform origin
     let t30 = mul_add(t10, P::splat(P::lane(t15, 1)), t26);
-    // angular velocity of the base
-    let t31 = mul_add(t5, P::splat(base_velocity[5]), t24);
     // angular acceleration of the base
-    let t32 = t1 * P::splat(base_acceleration[4]);
+    let t31 = t1 * P::splat(base_acceleration[4]);
     // legs 4, 5, 6: platform joint from the base point
-    let t33 =
-        P::triple([c(-0.052626906850092664), c(0.052626906850092664), c(0.17538661166134234)]);
+    let t32 = P::triple([c(0.17213485607334636), c(0.17213485607334636), c(-0.040491189781895726)]);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t13, P::splat(P::lane(t15, 1)), t29);
-    // legs 1, 2, 3: platform joint from the base point
-    let t35 = t12 + (t27 + P::splat(P::lane(t21, 0)));
+    let t33 = mul_add(t17, P::splat(P::lane(t15, 1)), t29);
     // velocity of the platform origin relative to the base
-    let t36 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t37 = t20 + (P::splat(P::lane(t21, 0)) + t28);
+    let t34 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // legs 1, 2, 3: platform joint from the base point
-    let t38 = t18 + (P::splat(P::lane(t21, 1)) + t30);
+    let t35 = t11 + (t27 + P::splat(P::lane(t21, 0)));
+    // legs 4, 5, 6: platform joint from the base point
+    let t36 = t32 + (P::splat(P::lane(t21, 0)) + t28);
+    // legs 1, 2, 3: platform joint from the base point
+    let t37 = t18 + (P::splat(P::lane(t21, 1)) + t30);
     // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t39 = neg_mul_add(t35, t35, w(0.042435999999999995));
+    let t38 = neg_mul_add(t35, t35, w(0.042435999999999995));
     // angular acceleration of the base
-    let t40 = mul_add(t2, P::splat(base_acceleration[3]), t32);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t41 = neg_mul_add(t37, t37, w(0.042435999999999995));
-    // legs 4, 5, 6: platform joint from the base point
-    let t42 = t33 + (P::splat(P::lane(t21, 1)) + t34);
+    let t39 = mul_add(t2, P::splat(base_acceleration[3]), t31);
     // angular velocity of the platform
-    let t43 = mul_add(t5, P::splat(platform_velocity[5]), t25);
+    let t40 = mul_add(t5, P::splat(platform_velocity[5]), t25);
+    // legs 4, 5, 6: platform joint from the base point
+    let t41 =
+        P::triple([c(-0.052626906850092664), c(0.052626906850092664), c(0.17538661166134234)]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t42 = neg_mul_add(t36, t36, w(0.042435999999999995));
+    // legs 4, 5, 6: platform joint from the base point
+    let t43 = P::splat(P::lane(t21, 1)) + t33 + t41;
     // velocity of the platform origin relative to the base
-    let t44 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t36);
+    let t44 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t34);
     // angular acceleration of the base
-    let t45 = mul_add(t5, P::splat(base_acceleration[5]), t40);
+    let t45 = mul_add(t5, P::splat(base_acceleration[5]), t39);
     // angular velocity of the base
-    let t46 = P::triple([P::lane(t31, 0), P::lane(t31, 2), P::lane(t31, 0)]);
-    let t47 = P::triple([P::lane(t31, 1), P::lane(t31, 1), P::lane(t31, 2)]);
+    let t46 = P::triple([P::lane(t24, 0), P::lane(t24, 2), P::lane(t24, 0)]);
+    let t47 = P::triple([P::lane(t24, 1), P::lane(t24, 1), P::lane(t24, 2)]);
     // angular velocity of the platform relative to the base
-    let t48 = t31 - t43;
+    let t48 = t24 - t40;
     // acceleration per base coordinate of points that move with the base
     let t49 = t46 * t47;
     // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t50 = sqrt(neg_mul_add(t38, t38, t39));
+    let t50 = sqrt(neg_mul_add(t37, t37, t38));
     // velocity of the platform origin relative to the base
     let t51 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t44);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t52 = sqrt(neg_mul_add(t42, t42, t41));
     // acceleration of the base origin less gravity
-    let t53 = t1 * P::splat(base_acceleration[1]);
+    let t52 = t1 * P::splat(base_acceleration[1]);
     // angular velocity of the base
-    let t54 = P::triple([P::lane(t31, 2), P::lane(t31, 2), P::lane(t31, 0)]);
+    let t53 = P::triple([P::lane(t24, 2), P::lane(t24, 2), P::lane(t24, 0)]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t54 = sqrt(neg_mul_add(t43, t43, t42));
     // platform origin seen from the base
     let t55 = P::triple([P::lane(t21, 2), P::lane(t21, 0), P::lane(t21, 1)]);
     // angular velocity of the base
-    let t56 = P::triple([P::lane(t31, 1), P::lane(t31, 2), P::lane(t31, 0)]);
+    let t56 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
     // acceleration of the base origin less gravity
-    let t57 = mul_add(t2, P::splat(base_acceleration[0]), t53);
+    let t57 = mul_add(t2, P::splat(base_acceleration[0]), t52);
     // angular velocity of the base
-    let t58 = P::triple([P::lane(t31, 1), P::lane(t31, 0), P::lane(t31, 1)]);
+    let t58 = P::triple([P::lane(t24, 1), P::lane(t24, 0), P::lane(t24, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t59 = mul_add(t58, t58, t54 * t54);
+    let t59 = mul_add(t58, t58, t53 * t53);
     // angular acceleration of the base
     let t60 = P::triple([P::lane(t45, 1), P::lane(t45, 2), P::lane(t45, 0)]);
     // acceleration per base coordinate of points that move with the base
@@ -23232,7 +23210,7 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // platform origin seen from the base
     let t65 = P::triple([P::lane(t21, 1), P::lane(t21, 2), P::lane(t21, 0)]);
     // angular velocity of the base
-    let t66 = P::triple([P::lane(t31, 2), P::lane(t31, 0), P::lane(t31, 1)]);
+    let t66 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
     // acceleration of the base origin less gravity
     let t67 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t57);
     // acceleration per base coordinate of points that move with the base
@@ -23240,7 +23218,7 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // velocity of the platform origin relative to the base
     let t69 = mul_add(t65, t66, neg_mul_add(t55, t56, t51));
     // angular velocity of the platform
-    let t70 = P::triple([P::lane(t43, 1), P::lane(t43, 2), P::lane(t43, 0)]);
+    let t70 = P::triple([P::lane(t40, 1), P::lane(t40, 2), P::lane(t40, 0)]);
     // legs 1, 2, 3: platform joint from the platform origin
     let t71 = t9 * P::splat(P::lane(t14, 2));
     // acceleration of the platform origin relative to the base, less w x v
@@ -23275,598 +23253,592 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     let t87 = P::triple([P::lane(t72, 1), P::lane(t72, 2), P::lane(t72, 0)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
     let t88 = t75 * P::splat(P::lane(t74, 0));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t89 = t11 * P::splat(P::lane(t14, 2));
     // legs 1, 2, 3: platform joint from the base point
-    let t90 = P::splat(P::lane(t21, 2)) + t75;
+    let t89 = P::splat(P::lane(t21, 2)) + t75;
     // rotation of the platform seen from the base
-    let t91 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t90 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t92 = mul_add(P::splat(P::lane(t21, 2)), t85, t67);
+    let t91 = mul_add(P::splat(P::lane(t21, 2)), t85, t67);
     // constant and copied elements
-    let t93 = P::triple([c(-0.12275970481124972), c(0.12275970481124972), c(0.17538661166134234)]);
+    let t92 = P::triple([c(-0.12275970481124972), c(0.12275970481124972), c(0.17538661166134234)]);
     // acceleration per platform coordinate of points of the platform
-    let t94 = mul_sub(t43, t91, t14 * t70);
+    let t93 = mul_sub(t40, t90, t14 * t70);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t95 = mul_sub(t30, P::splat(P::lane(t48, 0)), t83);
+    let t94 = mul_sub(t30, P::splat(P::lane(t48, 0)), t83);
     // velocity of the platform origin relative to the base
-    let t96 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    let t95 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t97 = t30 * P::splat(P::lane(t74, 2));
-    let t98 = mul_sub(t27, P::splat(P::lane(t74, 2)), t88);
+    let t96 = t30 * P::splat(P::lane(t74, 2));
+    let t97 = mul_sub(t27, P::splat(P::lane(t74, 2)), t88);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t99 = mul_add(P::splat(P::lane(t64, 2)), t93, t81);
+    let t98 = mul_add(P::splat(P::lane(t64, 2)), t92, t81);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t100 = mul_add(t13, P::splat(P::lane(t15, 2)), t89);
+    let t99 = t12 * P::splat(P::lane(t14, 2));
     // legs 1, 2, 3: actuator length d
-    let t101 = t90 - t50;
+    let t100 = t89 - t50;
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t102 = P::splat(P::lane(t69, 0)) - t82;
-    let t103 = P::splat(P::lane(t48, 0)) * t75;
+    let t101 = P::splat(P::lane(t69, 0)) - t82;
+    let t102 = P::splat(P::lane(t48, 0)) * t75;
     // rotation of the platform seen from the base
-    let t104 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t103 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t104 = mul_sub(t40, t103, t15 * t70);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t105 = mul_add(P::splat(P::lane(t21, 0)), t84, t80) + t91;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t106 = mul_sub(t75, P::splat(P::lane(t74, 1)), t96);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t107 = mul_add(t17, P::splat(P::lane(t15, 2)), t99);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t108 = mul_sub(t27, P::splat(P::lane(t48, 2)), t102);
+    let t109 = P::splat(P::lane(t69, 2)) - t94;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t110 = mul_add(P::splat(P::lane(t48, 2)), t101, t97);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t111 = neg_mul_add(P::splat(P::lane(t59, 2)), t100, t98);
     // legs 4, 5, 6: reciprocal of that extent
-    let t105 = w(1.0) / t52;
+    let t112 = w(1.0) / t54;
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t106 = t34 * P::splat(P::lane(t48, 2));
-    // acceleration per platform coordinate of points of the platform
-    let t107 = mul_sub(t43, t104, t15 * t70);
+    let t113 = t33 * P::splat(P::lane(t48, 2));
     // acceleration of the platform origin relative to the base, less w x v
-    let t108 = mul_add(P::splat(P::lane(t21, 0)), t84, t80) + t92;
+    let t114 = mul_sub(t72, t95, t86 * t87) + t105;
     // constant and copied elements
-    let t109 =
+    let t115 =
         P::triple([c(-0.17213485607334636), c(-0.17213485607334636), c(0.040491189781895726)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t110 = mul_sub(t75, P::splat(P::lane(t74, 1)), t97);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t111 = mul_sub(t27, P::splat(P::lane(t48, 2)), t103);
-    let t112 = P::splat(P::lane(t69, 2)) - t95;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t113 = mul_add(P::splat(P::lane(t48, 2)), t102, t98);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t114 = neg_mul_add(P::splat(P::lane(t59, 2)), t101, t99);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t115 = mul_add(P::splat(P::lane(t68, 2)), t109, P::splat(P::lane(t67, 2)));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t116 = mul_sub(P::splat(P::lane(t48, 1)), t100, t106);
-    let t117 = t28 * P::splat(P::lane(t48, 1));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t118 = mul_sub(t72, t96, t86 * t87) + t108;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t119 = P::splat(P::lane(t74, 0)) * t100;
-    // legs 4, 5, 6: platform joint from the base point
-    let t120 = P::splat(P::lane(t21, 2)) + t100;
-    // constant and copied elements
-    let t121 =
-        P::triple([c(0.052626906850092664), c(-0.052626906850092664), c(-0.17538661166134234)]);
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t122 = t35 * t76;
+    let t116 = t35 * t76;
     // angular velocity of the platform
-    let t123 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
+    let t117 = P::triple([P::lane(t40, 2), P::lane(t40, 0), P::lane(t40, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t124 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    let t118 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t125 = mul_add(P::splat(P::lane(t48, 1)), t112, t110);
+    let t119 = mul_add(P::splat(P::lane(t48, 1)), t109, t106);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t120 = mul_add(P::splat(P::lane(t68, 2)), t115, P::splat(P::lane(t67, 2)));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t121 = mul_sub(P::splat(P::lane(t48, 1)), t107, t113);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t126 = P::splat(P::lane(t69, 1)) - t111;
+    let t122 = P::splat(P::lane(t69, 1)) - t108;
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t127 = mul_sub(t34, P::splat(P::lane(t48, 0)), t117);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t128 = t34 * P::splat(P::lane(t74, 2));
+    let t123 = t28 * P::splat(P::lane(t48, 1));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t129 = neg_mul_add(P::splat(P::lane(t48, 0)), t112, t113);
+    let t124 = neg_mul_add(P::splat(P::lane(t48, 0)), t109, t110);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t130 = mul_sub(t28, P::splat(P::lane(t74, 2)), t119);
+    let t125 = P::splat(P::lane(t74, 0)) * t107;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t131 = mul_sub(t30, P::splat(P::lane(t74, 0)), t114);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t132 = mul_add(P::splat(P::lane(t64, 2)), t121, t115);
-    // legs 4, 5, 6: actuator length d
-    let t133 = t120 - t52;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t134 = P::splat(P::lane(t69, 0)) - t116;
-    let t135 = P::splat(P::lane(t48, 0)) * t100;
+    let t126 = mul_sub(t30, P::splat(P::lane(t74, 0)), t111);
+    // legs 4, 5, 6: platform joint from the base point
+    let t127 = P::splat(P::lane(t21, 2)) + t107;
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t136 = P::splat(P::lane(t48, 1)) * t102;
-    // acceleration per platform coordinate of points of the platform
-    let t137 = P::triple([P::lane(t107, 2), P::lane(t107, 0), P::lane(t107, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t138 = t38 * t76;
-    // acceleration per platform coordinate of points of the platform
-    let t139 = mul_sub(t70, t94, t123 * t124);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t140 = neg_mul_add(P::splat(P::lane(t48, 2)), t126, t125);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t141 = mul_sub(P::splat(P::lane(t74, 1)), t100, t128);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t142 = mul_sub(t28, P::splat(P::lane(t48, 2)), t135);
-    let t143 = P::splat(P::lane(t69, 2)) - t127;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t144 = P::splat(P::lane(t118, 1)) + t129;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t145 = mul_add(P::splat(P::lane(t48, 2)), t134, t130);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t146 = mul_sub(P::splat(P::lane(t48, 0)), t126, t136);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t147 = neg_mul_add(P::splat(P::lane(t59, 2)), t133, t132);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t148 = mul_add(t126, t138, mul_add(t102, t122, t112));
-    // acceleration per platform coordinate of points of the platform
-    let t149 = mul_sub(t70, t107, t123 * t137);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t150 = t37 * t105;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t151 = t140 + P::splat(P::lane(t118, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t152 = mul_add(P::splat(P::lane(t48, 1)), t143, t141);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t153 = P::splat(P::lane(t69, 1)) - t142;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t154 = neg_mul_add(P::splat(P::lane(t48, 0)), t143, t145);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t155 = t146 + neg_mul_add(t27, P::splat(P::lane(t74, 1)), t131);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t156 = mul_sub(t34, P::splat(P::lane(t74, 0)), t147);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t157 = P::splat(P::lane(t48, 1)) * t134;
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t158 = t112 - t148;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t159 = mul_add(t122, t151, t138 * t144);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t160 = neg_mul_add(P::splat(P::lane(t59, 0)), t79, P::splat(P::lane(t67, 0)));
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t161 = t42 * t105;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t162 = neg_mul_add(P::splat(P::lane(t48, 2)), t153, t152);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t163 = mul_add(P::splat(P::lane(t64, 1)), t79, P::splat(P::lane(t67, 1)));
-    let t164 = t9 * P::splat(P::lane(t139, 2));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t165 = P::splat(P::lane(t118, 1)) + t154;
-    let t166 = mul_sub(P::splat(P::lane(t48, 0)), t153, t157);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t167 = mul_add(t158, t158, mul_add(t102, t102, t126 * t126));
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t168 = mul_add(t153, t161, mul_add(t134, t150, t143));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t169 = mul_add(P::splat(P::lane(t68, 0)), t93, t160);
-    let t170 = mul_add(t10, P::splat(P::lane(t149, 2)), t164);
-    let t171 = P::lane(t31, 0) * P::lane(t31, 0);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t172 = P::splat(P::lane(t118, 0)) + t162;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t173 = neg_mul_add(P::splat(P::lane(t59, 1)), t93, t163);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t174 = t166 + neg_mul_add(t28, P::splat(P::lane(t74, 1)), t156);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t175 = neg_mul_add(t76, t167, t159 + (P::splat(P::lane(t118, 2)) + t155));
-    let t176 = P::mul_add(P::lane(t31, 1), P::lane(t31, 1), t171);
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t177 = t143 - t168;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t178 = mul_add(t150, t172, t161 * t165);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t179 = mul_add(P::splat(P::lane(t64, 0)), t101, t169);
-    let t180 = t170 * w(0.17066666666666666);
-    let t181 = t148 * w(2.0);
-    let t182 = mul_add(P::splat(P::lane(t68, 1)), t101, t173);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t183 = t11 * P::splat(P::lane(t139, 2));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t184 = mul_add(t177, t177, mul_add(t134, t134, t153 * t153));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t185 = mul_sub(t175, w(0.3413333333333334), t180);
-    let t186 = neg_mul_add(P::splat(t176), w(0.05), t175);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t187 = neg_mul_add(t100, t150, t28);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t188 = mul_add(P::splat(P::lane(t31, 1)), t181, t179);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t189 = mul_add(t13, P::splat(P::lane(t149, 2)), t183);
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t190 = t101 - w(0.198);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t191 = neg_mul_add(t75, t138, t30);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t192 = neg_mul_add(P::splat(P::lane(t31, 0)), t181, t182);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t193 = neg_mul_add(t75, t122, t27);
+    let t128 = P::splat(P::lane(t48, 1)) * t101;
     // constant and copied elements
-    let t194 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    let t129 =
+        P::triple([c(0.052626906850092664), c(-0.052626906850092664), c(-0.17538661166134234)]);
+    // acceleration per platform coordinate of points of the platform
+    let t130 = P::triple([P::lane(t104, 2), P::lane(t104, 0), P::lane(t104, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t131 = t37 * t76;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = mul_sub(t33, P::splat(P::lane(t48, 0)), t123);
+    // acceleration per platform coordinate of points of the platform
+    let t133 = mul_sub(t70, t93, t117 * t118);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t134 = neg_mul_add(P::splat(P::lane(t48, 2)), t122, t119);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t135 = t33 * P::splat(P::lane(t74, 2));
+    let t136 = mul_sub(t28, P::splat(P::lane(t74, 2)), t125);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t137 = mul_add(P::splat(P::lane(t64, 2)), t129, t120);
+    // legs 4, 5, 6: actuator length d
+    let t138 = t127 - t54;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t139 = P::splat(P::lane(t69, 0)) - t121;
+    let t140 = P::splat(P::lane(t48, 0)) * t107;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t141 = P::splat(P::lane(t114, 1)) + t124;
+    let t142 = mul_sub(P::splat(P::lane(t48, 0)), t122, t128);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t143 = mul_add(t122, t131, mul_add(t101, t116, t109));
+    // acceleration per platform coordinate of points of the platform
+    let t144 = mul_sub(t70, t104, t117 * t130);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t145 = mul_sub(P::splat(P::lane(t74, 1)), t107, t135);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t146 = mul_sub(t28, P::splat(P::lane(t48, 2)), t140);
+    let t147 = P::splat(P::lane(t69, 2)) - t132;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t148 = t134 + P::splat(P::lane(t114, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t149 = mul_add(P::splat(P::lane(t48, 2)), t139, t136);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t150 = neg_mul_add(P::splat(P::lane(t59, 2)), t138, t137);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t195 = mul_add(t186, w(0.611), t185);
+    let t151 = t142 + neg_mul_add(t27, P::splat(P::lane(t74, 1)), t126);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t152 = t36 * t112;
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t153 = t109 - t143;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t154 = mul_add(P::splat(P::lane(t48, 1)), t147, t145);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t155 = mul_add(t116, t148, t131 * t141);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t156 = P::splat(P::lane(t69, 1)) - t146;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t157 = neg_mul_add(P::splat(P::lane(t48, 0)), t147, t149);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t158 = t9 * P::splat(P::lane(t133, 2));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t196 = neg_mul_add(P::splat(P::lane(t59, 0)), t109, P::splat(P::lane(t67, 0)));
-    let t197 = neg_mul_add(t105, t184, t178 + (P::splat(P::lane(t118, 2)) + t174));
+    let t159 = mul_sub(t33, P::splat(P::lane(t74, 0)), t150);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t160 = P::splat(P::lane(t48, 1)) * t139;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t161 = mul_add(t153, t153, mul_add(t101, t101, t122 * t122));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t162 = t43 * t112;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t163 = neg_mul_add(P::splat(P::lane(t48, 2)), t156, t154);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t164 = mul_add(t10, P::splat(P::lane(t144, 2)), t158);
+    let t165 = P::lane(t24, 0) * P::lane(t24, 0);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t166 = P::splat(P::lane(t114, 1)) + t157;
+    let t167 = mul_sub(P::splat(P::lane(t48, 0)), t156, t160);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t168 = mul_add(t156, t162, mul_add(t139, t152, t147));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t169 = neg_mul_add(P::splat(P::lane(t59, 0)), t79, P::splat(P::lane(t67, 0)));
+    let t170 = mul_add(P::splat(P::lane(t64, 1)), t79, P::splat(P::lane(t67, 1)));
+    let t171 = neg_mul_add(t76, t161, t155 + (P::splat(P::lane(t114, 2)) + t151));
+    let t172 = P::mul_add(P::lane(t24, 1), P::lane(t24, 1), t165);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t173 = P::splat(P::lane(t114, 0)) + t163;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t174 = t164 * w(0.17066666666666666);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t175 = t167 + neg_mul_add(t28, P::splat(P::lane(t74, 1)), t159);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t176 = t147 - t168;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t177 = mul_add(P::splat(P::lane(t68, 0)), t92, t169);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t178 = mul_add(t152, t173, t162 * t166);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t179 = neg_mul_add(P::splat(P::lane(t59, 1)), t92, t170);
+    let t180 = mul_sub(t171, w(0.3413333333333334), t174);
+    let t181 = neg_mul_add(P::splat(t172), w(0.05), t171);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t182 = t12 * P::splat(P::lane(t133, 2));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t183 = t100 - w(0.198);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t184 = mul_add(t176, t176, mul_add(t139, t139, t156 * t156));
     // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t198 = neg_mul_add(t100, t161, t34);
-    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t199 = mul_add(t28, w(0.1792089604480224), t187);
-    // mass matrix in base coordinates
-    let t200 = t138 * w(0.9523333333333334);
+    let t185 = neg_mul_add(t107, t152, t28);
+    // constant and copied elements
+    let t186 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t187 = mul_add(P::splat(P::lane(t64, 0)), t100, t177);
+    let t188 = mul_add(P::splat(P::lane(t68, 1)), t100, t179);
+    let t189 = mul_add(t181, w(0.611), t180);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t201 = mul_add(P::splat(P::lane(t64, 1)), t109, P::splat(P::lane(t67, 1)));
-    let t202 = w(0.17066666666666666) * t189;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t203 = w(0.17066666666666666) * t188;
+    let t190 = mul_add(t17, P::splat(P::lane(t144, 2)), t182);
     // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t204 = mul_sub(t27, t138, t30 * t122);
+    let t191 = neg_mul_add(t75, t131, t30);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t192 = t143 * w(2.0);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t193 = neg_mul_add(t75, t116, t27);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t194 = neg_mul_add(t112, t184, t178 + (P::splat(P::lane(t114, 2)) + t175));
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t195 = neg_mul_add(t107, t162, t33);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t196 = mul_add(t28, w(0.1792089604480224), t185);
+    // mass matrix in base coordinates
+    let t197 = t131 * w(0.9523333333333334);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t198 = mul_add(P::splat(P::lane(t24, 1)), t192, t187);
+    let t199 = neg_mul_add(P::splat(P::lane(t24, 0)), t192, t188);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t200 = neg_mul_add(P::splat(P::lane(t59, 0)), t115, P::splat(P::lane(t67, 0)));
+    let t201 = mul_add(P::splat(P::lane(t64, 1)), t115, P::splat(P::lane(t67, 1)));
+    let t202 = w(0.17066666666666666) * t190;
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t203 = mul_sub(t27, t131, t30 * t116);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t204 = t189 + neg_mul_add(t183, w(21555.9), t186);
     // legs 1, 2, 3: the vectors that are squared, in the platform speeds
     let t205 = mul_add(t30, w(0.1792089604480224), t191);
     // mass matrix in base coordinates
-    let t206 = t161 * w(0.9523333333333334);
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t207 = w(0.17066666666666666) * t192;
-    let t208 = t175 * w(0.17066666666666666);
+    let t206 = t162 * w(0.9523333333333334);
     // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t209 = mul_add(t27, w(0.1792089604480224), t193);
+    let t207 = mul_add(t27, w(0.1792089604480224), t193);
     // mass matrix in base coordinates
-    let t210 = t122 * (t122 * w(0.9523333333333334));
+    let t208 = t116 * (t116 * w(0.9523333333333334));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t211 = mul_add(P::splat(P::lane(t68, 0)), t121, t196);
-    let t212 = mul_sub(w(0.3413333333333334), t197, t202);
-    let t213 = mul_sub(P::splat(t176), w(0.05), t197);
+    let t209 = mul_sub(w(0.3413333333333334), t194, t202);
+    let t210 = mul_sub(P::splat(t172), w(0.05), t194);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t211 = t171 * w(0.17066666666666666);
     // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t214 = mul_sub(t28, t161, t34 * t150);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t215 = t195 + neg_mul_add(t190, w(21555.9), t194);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t216 = t75 * t203;
+    let t212 = mul_sub(t28, t162, t33 * t152);
     // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t217 = mul_add(t34, w(0.1792089604480224), t198);
+    let t213 = mul_add(t33, w(0.1792089604480224), t195);
     // mass matrix in base coordinates
-    let t218 = t150 * w(1.1230000000000002);
-    let t219 = w(0.9523333333333334) * t199;
-    let t220 = t161 * w(1.1230000000000002);
+    let t214 = t152 * w(1.1230000000000002);
+    let t215 = w(0.9523333333333334) * t196;
+    let t216 = t162 * w(1.1230000000000002);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t221 = neg_mul_add(P::splat(P::lane(t59, 1)), t121, t201);
+    let t217 = mul_add(P::splat(P::lane(t68, 0)), t129, t200);
+    let t218 = neg_mul_add(P::splat(P::lane(t59, 1)), t129, t201);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t219 = w(0.17066666666666666) * t198;
+    let t220 = w(0.17066666666666666) * t199;
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t222 = t133 - w(0.198);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t223 = t30 * t208;
-    let t224 = t27 * t207;
+    let t221 = t138 - w(0.198);
     // mass matrix in base coordinates
-    let t225 = w(0.9523333333333334) * t205;
-    let t226 = w(0.9523333333333334) * t204;
+    let t222 = w(0.9523333333333334) * t205;
+    let t223 = w(0.9523333333333334) * t203;
     // rotation of the platform seen from the base
-    let t227 = t1 * P::splat(platform_rotation[1][2]);
+    let t224 = t1 * P::splat(platform_rotation[1][2]);
     // mass matrix in base coordinates
-    let t228 = mul_add(t150, t150 * w(0.9523333333333334), t210);
-    let t229 = t30 * w(0.03058499591646249);
-    let t230 = mul_add(t161, t206, t138 * t200);
+    let t225 = mul_add(t152, t152 * w(0.9523333333333334), t208);
+    let t226 = t30 * w(0.03058499591646249);
+    let t227 = mul_add(t162, t206, t131 * t197);
     // constant and copied elements
-    let t231 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    let t228 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
     // mass matrix in base coordinates
-    let t232 = mul_add(t122, t200, t150 * t206);
-    let t233 = mul_add(t122, w(1.1230000000000002), t218);
-    let t234 = w(0.9523333333333334) * t209;
-    let t235 = t27 * w(0.03058499591646249);
-    let t236 = mul_add(t138, w(1.1230000000000002), t220);
+    let t229 = mul_add(t116, t197, t152 * t206);
+    let t230 = mul_add(t116, w(1.1230000000000002), t214);
+    let t231 = w(0.9523333333333334) * t207;
+    let t232 = t27 * w(0.03058499591646249);
+    let t233 = mul_add(t131, w(1.1230000000000002), t216);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t237 = mul_add(P::splat(P::lane(t64, 0)), t133, t211);
-    let t238 = neg_mul_add(w(0.611), t213, t212);
+    let t234 = neg_mul_add(w(0.611), t210, t209);
     // mass matrix in base coordinates
-    let t239 = w(0.9523333333333334) * t217;
-    let t240 = w(0.9523333333333334) * t214;
+    let t235 = w(0.9523333333333334) * t213;
+    let t236 = w(0.9523333333333334) * t212;
     // rotation of the platform seen from the base
-    let t241 = mul_add(t2, P::splat(platform_rotation[0][2]), t227);
+    let t237 = mul_add(t2, P::splat(platform_rotation[0][2]), t224);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t242 = t168 * w(2.0);
-    let t243 = mul_add(P::splat(P::lane(t68, 1)), t133, t221);
+    let t238 = mul_add(P::splat(P::lane(t64, 0)), t138, t217);
+    let t239 = mul_add(P::splat(P::lane(t68, 1)), t138, t218);
     // mass matrix in base coordinates
-    let t244 = neg_mul_add(t225, w(1.1792089604480225), t229);
-    let t245 = mul_add(t138, t234, t161 * t219);
-    let t246 = neg_mul_add(t234, w(1.1792089604480225), t235);
+    let t240 = neg_mul_add(t222, w(1.1792089604480225), t226);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t241 = t168 * w(2.0);
+    // mass matrix in base coordinates
+    let t242 = mul_add(t131, t231, t162 * t215);
+    let t243 = neg_mul_add(t231, w(1.1792089604480225), t232);
     // wrench left at the trial acceleration
-    let t247 = mul_add(t27, t208, mul_add(t193, t215, t216));
+    let t244 = mul_add(t75, t219, mul_add(t27, t211, t193 * t204));
     // mass matrix in base coordinates
-    let t248 = mul_add(t161, t239, t138 * t225);
-    let t249 = mul_add(t161, t240, t138 * t226);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t250 = mul_add(P::splat(P::lane(t31, 1)), t242, t237);
+    let t245 = mul_add(t162, t235, t131 * t222);
+    let t246 = mul_add(t162, t236, t131 * t223);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t251 = t238 + neg_mul_add(w(21555.9), t222, t231);
+    let t247 = t234 + neg_mul_add(w(21555.9), t221, t228);
     // wrench left at the trial acceleration
-    let t252 = mul_add(t75, t207, mul_add(t191, t215, t223));
-    let t253 = mul_add(t30, t203, mul_sub(t204, t215, t224));
+    let t248 = mul_add(t30, t211, mul_add(t75, t220, t191 * t204));
+    let t249 = neg_mul_add(t27, t220, mul_add(t30, t219, t203 * t204));
     // rotation of the platform seen from the base
-    let t254 = mul_add(t5, P::splat(platform_rotation[2][2]), t241);
+    let t250 = mul_add(t5, P::splat(platform_rotation[2][2]), t237);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t255 = neg_mul_add(P::splat(P::lane(t31, 0)), t242, t243);
+    let t251 = mul_add(P::splat(P::lane(t24, 1)), t241, t238);
+    let t252 = neg_mul_add(P::splat(P::lane(t24, 0)), t241, t239);
     // mass matrix in base coordinates
-    let t256 = mul_add(t150, t219, t122 * t234);
-    let t257 = mul_sub(t239, w(1.1792089604480225), t244);
-    let t258 = mul_add(t122, t225, t150 * t239);
-    let t259 = mul_add(t150, t240, t122 * t226);
-    let t260 = P::triple([P::lane(t228, 0), P::lane(t230, 0), c(2.5873333333333344)]);
-    let t261 = P::triple([P::lane(t228, 1), P::lane(t230, 1), c(2.5873333333333344)]);
-    let t262 = mul_sub(t219, w(1.1792089604480225), t246);
-    let t263 = P::triple([P::lane(t236, 0), P::lane(t233, 0), P::lane(t232, 0)]);
-    let t264 = P::triple([P::lane(t236, 1), P::lane(t233, 1), P::lane(t232, 1)]);
-    let t265 = t240 * w(1.1792089604480225);
+    let t253 = mul_add(t152, t215, t116 * t231);
+    let t254 = mul_sub(t235, w(1.1792089604480225), t240);
+    let t255 = mul_add(t116, t222, t152 * t235);
+    let t256 = mul_add(t152, t236, t116 * t223);
+    let t257 = P::triple([P::lane(t225, 0), P::lane(t227, 0), c(2.5873333333333344)]);
+    let t258 = P::triple([P::lane(t225, 1), P::lane(t227, 1), c(2.5873333333333344)]);
+    let t259 = mul_sub(t215, w(1.1792089604480225), t243);
+    let t260 = P::triple([P::lane(t233, 0), P::lane(t230, 0), P::lane(t229, 0)]);
+    let t261 = P::triple([P::lane(t233, 1), P::lane(t230, 1), P::lane(t229, 1)]);
+    let t262 = t236 * w(1.1792089604480225);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t266 = w(0.17066666666666666) * t250;
-    let t267 = w(0.17066666666666666) * t255;
-    let t268 = w(0.17066666666666666) * t197;
+    let t263 = w(0.17066666666666666) * t194;
+    let t264 = w(0.17066666666666666) * t251;
+    let t265 = w(0.17066666666666666) * t252;
     // mass matrix in base coordinates
-    let t269 = P::triple([P::lane(t228, 2), P::lane(t230, 2), c(2.5873333333333344)]);
-    let t270 = mul_sub(t34, w(0.03058499591646249), t257);
-    let t271 = P::triple([P::lane(t236, 2), P::lane(t233, 2), P::lane(t232, 2)]);
-    let t272 = mul_sub(t28, w(0.03058499591646249), t262);
-    let t273 = mul_add(t226, w(1.1792089604480225), t265);
+    let t266 = P::triple([P::lane(t225, 2), P::lane(t227, 2), c(2.5873333333333344)]);
+    let t267 = mul_sub(t33, w(0.03058499591646249), t254);
+    let t268 = P::triple([P::lane(t233, 2), P::lane(t230, 2), P::lane(t229, 2)]);
+    let t269 = mul_sub(t28, w(0.03058499591646249), t259);
+    let t270 = mul_add(t223, w(1.1792089604480225), t262);
     // wrench left at the trial acceleration
-    let t274 = mul_add(t100, t266, mul_add(t187, t251, t247));
+    let t271 = mul_add(t28, t263, mul_add(t185, t247, t244));
     // mass matrix in base coordinates
-    let t275 = t263 + t264 + t271;
-    let t276 = P::triple([P::lane(t248, 0), -P::lane(t245, 0), P::lane(t249, 0)]);
-    let t277 = P::triple([P::lane(t248, 1), -P::lane(t245, 1), P::lane(t249, 1)]);
+    let t272 = t260 + t261 + t268;
+    let t273 = P::triple([P::lane(t245, 0), -P::lane(t242, 0), P::lane(t246, 0)]);
+    let t274 = P::triple([P::lane(t245, 1), -P::lane(t242, 1), P::lane(t246, 1)]);
     // wrench left at the trial acceleration
-    let t278 = mul_add(t34, t268, mul_add(t198, t251, t252));
-    let t279 = neg_mul_add(t28, t267, mul_add(t214, t251, t253));
+    let t275 = mul_add(t107, t265, mul_add(t195, t247, t248));
+    let t276 = mul_add(t33, t264, mul_add(t212, t247, t249));
     // rotation of the platform seen from the base
-    let t280 = P::triple([P::lane(t254, 1), P::lane(t254, 2), P::lane(t254, 0)]);
+    let t277 = P::triple([P::lane(t250, 1), P::lane(t250, 2), P::lane(t250, 0)]);
     // mass matrix in base coordinates
-    let t281 = t260 + t261 + t269 + w(8.139999999999999);
-    let t282 = mul_add(t217, t239, mul_sub(t205, t225, t30 * t229));
-    let t283 = mul_add(t199, t219, mul_sub(t209, t234, t27 * t235));
+    let t278 = t257 + t258 + t266 + w(8.139999999999999);
+    let t279 = mul_add(t213, t235, mul_sub(t205, t222, t30 * t226));
+    let t280 = mul_add(t196, t215, mul_sub(t207, t231, t27 * t232));
     // acceleration per platform coordinate of points of the platform
-    let t284 = mul_sub(t43, t280, t70 * t254);
+    let t281 = mul_sub(t40, t277, t70 * t250);
     // mass matrix in base coordinates
-    let t285 = t28 * w(0.03058499591646249);
-    let t286 = P::triple([P::lane(t258, 0), -P::lane(t256, 0), P::lane(t259, 0)]);
-    let t287 = P::triple([P::lane(t258, 1), -P::lane(t256, 1), P::lane(t259, 1)]);
-    let t288 = P::triple([P::lane(t248, 2), -P::lane(t245, 2), P::lane(t249, 2)]);
+    let t282 = t28 * w(0.03058499591646249);
+    let t283 = P::triple([P::lane(t255, 0), -P::lane(t253, 0), P::lane(t256, 0)]);
+    let t284 = P::triple([P::lane(t255, 1), -P::lane(t253, 1), P::lane(t256, 1)]);
+    let t285 = P::triple([P::lane(t245, 2), -P::lane(t242, 2), P::lane(t246, 2)]);
     // wrench left at the trial acceleration
-    let t289 = mul_add(t28, t268, t274);
+    let t286 = mul_add(t107, t264, t271);
     // mass matrix in base coordinates
-    let t290 = t276 + t277 + t288;
-    let t291 = mul_add(t217, t219, mul_sub(t205, t234, t30 * t235));
+    let t287 = t273 + t274 + t285;
+    let t288 = mul_add(t213, t215, mul_sub(t205, t231, t30 * t232));
     // wrench left at the trial acceleration
-    let t292 = mul_add(t100, t267, t278);
-    let t293 = mul_add(t34, t266, t279);
+    let t289 = mul_add(t33, t263, t275);
+    let t290 = neg_mul_add(t28, t265, t276);
     // mass matrix in base coordinates
-    let t294 = P::triple([P::lane(t258, 2), -P::lane(t256, 2), P::lane(t259, 2)]);
-    let t295 = mul_sub(t34, t34 * w(0.03058499591646249), t282);
-    let t296 = mul_sub(t28, t285, t283);
-    let t297 = t286 + t287 + t294;
-    let t298 = P::triple([-P::lane(t270, 0), P::lane(t272, 0), P::lane(t273, 0)]);
-    let t299 = P::triple([-P::lane(t270, 1), P::lane(t272, 1), P::lane(t273, 1)]);
-    let t300 = mul_add(t199, t240, t209 * t226);
-    let t301 = mul_add(t214, t240, t204 * t226);
-    let t302 = P::triple([P::lane(t275, 2), P::lane(t275, 2), P::lane(t275, 0)]);
-    let t303 = P::triple([P::lane(t275, 1), P::lane(t275, 0), P::lane(t275, 1)]);
+    let t291 = P::triple([P::lane(t255, 2), -P::lane(t253, 2), P::lane(t256, 2)]);
+    let t292 = mul_sub(t33, t33 * w(0.03058499591646249), t279);
+    let t293 = mul_sub(t28, t282, t280);
+    let t294 = t283 + t284 + t291;
+    let t295 = P::triple([-P::lane(t267, 0), P::lane(t269, 0), P::lane(t270, 0)]);
+    let t296 = P::triple([-P::lane(t267, 1), P::lane(t269, 1), P::lane(t270, 1)]);
+    let t297 = mul_add(t196, t236, t207 * t223);
+    let t298 = mul_add(t212, t236, t203 * t223);
+    let t299 = P::triple([P::lane(t272, 2), P::lane(t272, 2), P::lane(t272, 0)]);
+    let t300 = P::triple([P::lane(t272, 1), P::lane(t272, 0), P::lane(t272, 1)]);
     // wrench left at the trial acceleration
-    let t304 = mul_sub(t150, t251, neg_mul_add(t122, t215, t203));
-    let t305 = mul_sub(t161, t251, neg_mul_add(t138, t215, t207));
+    let t301 = mul_sub(t152, t247, neg_mul_add(t116, t204, t219));
+    let t302 = mul_sub(t162, t247, neg_mul_add(t131, t204, t220));
     // mass matrix in base coordinates
-    let t306 = mul_sub(t34, t285, t291);
-    let t307 = mul_add(t217, t240, t205 * t226);
+    let t303 = mul_sub(t33, t282, t288);
+    let t304 = mul_add(t213, t236, t205 * t223);
     // acceleration that removes the residual wrench
-    let t308 = mul_sub(t302, t303, t275 * t281);
+    let t305 = mul_sub(t299, t300, t272 * t278);
     // wrench left at the trial acceleration
-    let t309 = t251 + mul_add(t175, w(0.17066666666666666), t215);
+    let t306 = t247 + mul_add(t171, w(0.17066666666666666), t204);
     // mass matrix in base coordinates
-    let t310 = P::triple([-P::lane(t270, 2), P::lane(t272, 2), P::lane(t273, 2)]);
+    let t307 = P::triple([-P::lane(t267, 2), P::lane(t269, 2), P::lane(t270, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t311 = P::triple([P::lane(t284, 2), P::lane(t284, 0), P::lane(t284, 1)]);
+    let t308 = P::triple([P::lane(t281, 2), P::lane(t281, 0), P::lane(t281, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t312 = t1 * P::splat(external_wrench[1]);
+    let t309 = t1 * P::splat(external_wrench[1]);
     // mass matrix in base coordinates
-    let t313 = t298 + t299 + t310;
-    let t314 = P::neg_mul_add(P::lane(t254, 2), c(0.188852), P::lane(t290, 0));
-    let t315 = P::mul_add(P::lane(t254, 0), c(0.188852), P::lane(t290, 2));
+    let t310 = t295 + t296 + t307;
+    let t311 = P::neg_mul_add(P::lane(t250, 2), c(0.188852), P::lane(t287, 0));
+    let t312 = P::mul_add(P::lane(t250, 0), c(0.188852), P::lane(t287, 2));
     // first moments by platform coordinate of the payload's inertia force
-    let t316 = t149 * w(0.032245600000000006);
+    let t313 = t144 * w(0.032245600000000006);
     // wrench left at the trial acceleration
-    let t317 = mul_sub(w(0.17066666666666666), t250, t304);
-    let t318 = mul_sub(w(0.17066666666666666), t255, t305);
+    let t314 = mul_sub(w(0.17066666666666666), t251, t301);
+    let t315 = mul_sub(w(0.17066666666666666), t252, t302);
     // mass matrix in base coordinates
-    let t319 = P::triple([P::lane(t281, 1), P::lane(t281, 0), P::lane(t281, 1)]);
-    let t320 = P::triple([P::lane(t281, 2), P::lane(t281, 2), P::lane(t281, 0)]);
+    let t316 = P::triple([P::lane(t278, 1), P::lane(t278, 0), P::lane(t278, 1)]);
+    let t317 = P::triple([P::lane(t278, 2), P::lane(t278, 2), P::lane(t278, 0)]);
     // wrench left at the trial acceleration
-    let t321 = mul_add(w(0.17066666666666666), t197, t309);
-    let t322 = P::triple([P::lane(t292, 0), -P::lane(t289, 0), P::lane(t293, 0)]);
-    let t323 = P::triple([P::lane(t292, 1), -P::lane(t289, 1), P::lane(t293, 1)]);
+    let t318 = mul_add(w(0.17066666666666666), t194, t306);
+    let t319 = P::triple([P::lane(t289, 0), -P::lane(t286, 0), P::lane(t290, 0)]);
+    let t320 = P::triple([P::lane(t289, 1), -P::lane(t286, 1), P::lane(t290, 1)]);
     // acceleration that removes the residual wrench
-    let t324 = mul_sub(t319, t320, t275 * t275);
+    let t321 = mul_sub(t316, t317, t272 * t272);
     // inertia less external wrench that the actuators must balance
-    let t325 = mul_add(t2, P::splat(external_wrench[0]), t312);
+    let t322 = mul_add(t2, P::splat(external_wrench[0]), t309);
     // mass matrix in base coordinates
-    let t326 = P::mul_add(P::lane(t254, 2), c(0.188852), P::lane(t297, 1));
-    let t327 = P::neg_mul_add(P::lane(t254, 1), c(0.188852), P::lane(t297, 2));
+    let t323 = P::mul_add(P::lane(t250, 2), c(0.188852), P::lane(t294, 1));
+    let t324 = P::neg_mul_add(P::lane(t250, 1), c(0.188852), P::lane(t294, 2));
     // acceleration per platform coordinate of points of the platform
-    let t328 = mul_sub(t70, t284, t123 * t311);
+    let t325 = mul_sub(t70, t281, t117 * t308);
     // mass matrix in base coordinates
-    let t329 = P::triple([-P::lane(t295, 0), -P::lane(t296, 0), P::lane(t301, 0)]);
-    let t330 = P::triple([-P::lane(t295, 1), -P::lane(t296, 1), P::lane(t301, 1)]);
-    let t331 = t15 * w(0.032245600000000006);
-    let t332 = P::triple([t314, P::lane(t290, 1), t315]);
+    let t326 = P::triple([-P::lane(t292, 0), -P::lane(t293, 0), P::lane(t298, 0)]);
+    let t327 = P::triple([-P::lane(t292, 1), -P::lane(t293, 1), P::lane(t298, 1)]);
+    let t328 = t15 * w(0.032245600000000006);
+    let t329 = P::triple([t311, P::lane(t287, 1), t312]);
     // wrench left at the trial acceleration
-    let t333 = P::triple([P::lane(t292, 2), -P::lane(t289, 2), P::lane(t293, 2)]);
+    let t330 = P::triple([P::lane(t289, 2), -P::lane(t286, 2), P::lane(t290, 2)]);
     // mass matrix in base coordinates
-    let t334 = P::triple([-P::lane(t300, 0), P::lane(t307, 0), P::lane(t306, 0)]);
-    let t335 = P::triple([-P::lane(t300, 1), P::lane(t307, 1), P::lane(t306, 1)]);
+    let t331 = P::triple([-P::lane(t297, 0), P::lane(t304, 0), P::lane(t303, 0)]);
+    let t332 = P::triple([-P::lane(t297, 1), P::lane(t304, 1), P::lane(t303, 1)]);
     // acceleration that removes the residual wrench
-    let t336 = P::splat(P::lane(t308, 2)) * t332;
+    let t333 = P::splat(P::lane(t305, 2)) * t329;
     // inertia less external wrench that the actuators must balance
-    let t337 = mul_add(t5, P::splat(external_wrench[2]), t325);
+    let t334 = mul_add(t5, P::splat(external_wrench[2]), t322);
     // mass matrix in base coordinates
-    let t338 = P::triple([-P::lane(t295, 2), -P::lane(t296, 2), P::lane(t301, 2)]);
-    let t339 = P::triple([P::lane(t297, 0), t326, t327]);
-    let t340 = P::mul_add(P::lane(t254, 1), c(0.188852), P::lane(t313, 0));
-    let t341 = P::neg_mul_add(P::lane(t254, 0), c(0.188852), P::lane(t313, 1));
+    let t335 = P::triple([-P::lane(t292, 2), -P::lane(t293, 2), P::lane(t298, 2)]);
+    let t336 = P::triple([P::lane(t294, 0), t323, t324]);
+    let t337 = P::mul_add(P::lane(t250, 1), c(0.188852), P::lane(t310, 0));
+    let t338 = P::neg_mul_add(P::lane(t250, 0), c(0.188852), P::lane(t310, 1));
     // first moments by platform coordinate of the payload's inertia force
-    let t342 = t328 * w(0.013354412);
+    let t339 = t325 * w(0.013354412);
     // inertia less external wrench that the actuators must balance
-    let t343 = P::triple([P::lane(t316, 2), P::lane(t316, 0), P::lane(t316, 1)]);
+    let t340 = P::triple([P::lane(t313, 2), P::lane(t313, 0), P::lane(t313, 1)]);
     // mass matrix in base coordinates
-    let t344 = t14 * w(0.032245600000000006);
-    let t345 = P::triple([-P::lane(t300, 2), P::lane(t307, 2), P::lane(t306, 2)]);
+    let t341 = t14 * w(0.032245600000000006);
+    let t342 = P::triple([-P::lane(t297, 2), P::lane(t304, 2), P::lane(t303, 2)]);
     // acceleration that removes the residual wrench
-    let t346 = mul_add(P::splat(P::lane(t324, 0)), t339, t336);
+    let t343 = mul_add(P::splat(P::lane(t321, 0)), t336, t333);
     // first moments by platform coordinate of the payload's inertia force
-    let t347 = t139 * w(0.032245600000000006);
+    let t344 = t133 * w(0.032245600000000006);
     // wrench left at the trial acceleration
-    let t348 = neg_mul_add(t104, t343, t322 + t323 + t333);
-    let t349 = P::triple([-P::lane(t317, 0), -P::lane(t318, 0), P::lane(t321, 0)]);
-    let t350 = P::triple([-P::lane(t317, 1), -P::lane(t318, 1), P::lane(t321, 1)]);
+    let t345 = neg_mul_add(t103, t340, t319 + t320 + t330);
+    let t346 = P::triple([-P::lane(t314, 0), -P::lane(t315, 0), P::lane(t318, 0)]);
+    let t347 = P::triple([-P::lane(t314, 1), -P::lane(t315, 1), P::lane(t318, 1)]);
     // mass matrix in base coordinates
-    let t351 = t329 + t330 + t338 + w(0.07784561200000001);
+    let t348 = t326 + t327 + t335 + w(0.07784561200000001);
     // rotation of the platform seen from the base
-    let t352 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    let t349 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
     // mass matrix in base coordinates
-    let t353 = P::triple([P::lane(t331, 1), P::lane(t331, 0), P::lane(t331, 0)]);
-    let t354 = P::triple([t340, t341, P::lane(t313, 2)]);
+    let t350 = P::triple([P::lane(t328, 1), P::lane(t328, 0), P::lane(t328, 0)]);
+    let t351 = P::triple([t337, t338, P::lane(t310, 2)]);
     // rotation of the platform seen from the base
-    let t355 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t352 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t356 = P::triple([P::lane(t316, 1), P::lane(t316, 2), P::lane(t316, 0)]);
+    let t353 = P::triple([P::lane(t313, 1), P::lane(t313, 2), P::lane(t313, 0)]);
     // mass matrix in base coordinates
-    let t357 = t254 * w(0.013354412);
-    let t358 = neg_mul_add(t352, t353, t334 + t335 + t345);
+    let t354 = t250 * w(0.013354412);
+    let t355 = neg_mul_add(t349, t350, t331 + t332 + t342);
     // acceleration that removes the residual wrench
-    let t359 = mul_add(P::splat(P::lane(t308, 1)), t354, t346);
-    let t360 = t332 * P::splat(P::lane(t324, 1));
+    let t356 = mul_add(P::splat(P::lane(t305, 1)), t351, t343);
+    let t357 = t329 * P::splat(P::lane(t321, 1));
     // wrench left at the trial acceleration
-    let t361 = P::triple([-P::lane(t317, 2), -P::lane(t318, 2), P::lane(t321, 2)]);
+    let t358 = P::triple([-P::lane(t314, 2), -P::lane(t315, 2), P::lane(t318, 2)]);
     // acceleration that removes the residual wrench
-    let t362 = P::lane(t275, 2) * P::lane(t308, 2);
+    let t359 = P::lane(t272, 2) * P::lane(t305, 2);
     // first moments by platform coordinate of the payload's inertia force
-    let t363 = P::triple([P::lane(t342, 1), P::lane(t342, 2), P::lane(t342, 0)]);
+    let t360 = P::triple([P::lane(t339, 1), P::lane(t339, 2), P::lane(t339, 0)]);
     // inertia less external wrench that the actuators must balance
-    let t364 = P::triple([P::lane(t337, 1), P::lane(t337, 2), P::lane(t337, 0)]);
+    let t361 = P::triple([P::lane(t334, 1), P::lane(t334, 2), P::lane(t334, 0)]);
     // rotation of the platform seen from the base
-    let t365 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    let t362 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
     // mass matrix in base coordinates
-    let t366 = P::triple([P::lane(t344, 1), P::lane(t344, 0), P::lane(t344, 0)]);
+    let t363 = P::triple([P::lane(t341, 1), P::lane(t341, 0), P::lane(t341, 0)]);
     // acceleration that removes the residual wrench
-    let t367 = mul_add(P::splat(P::lane(t308, 2)), t339, t360);
+    let t364 = mul_add(P::splat(P::lane(t305, 2)), t336, t357);
     // inertia less external wrench that the actuators must balance
-    let t368 = neg_mul_add(t364, w(0.031), t363);
-    let t369 = P::triple([P::lane(t347, 2), P::lane(t347, 0), P::lane(t347, 1)]);
+    let t365 = neg_mul_add(t361, w(0.031), t360);
+    let t366 = P::triple([P::lane(t344, 2), P::lane(t344, 0), P::lane(t344, 1)]);
     // acceleration that removes the residual wrench
-    let t370 = t332 * P::splat(P::lane(t308, 0));
-    let t371 = P::mul_add(P::lane(t281, 0), P::lane(t324, 0), t362);
+    let t367 = t329 * P::splat(P::lane(t305, 0));
+    let t368 = P::mul_add(P::lane(t278, 0), P::lane(t321, 0), t359);
     // wrench left at the trial acceleration
-    let t372 = neg_mul_add(w(0.188852), t328, t349 + t350 + t361);
-    let t373 = neg_mul_add(t91, t369, mul_add(t355, t356, t348));
+    let t369 = neg_mul_add(w(0.188852), t325, t346 + t347 + t358);
+    let t370 = neg_mul_add(t90, t366, mul_add(t352, t353, t345));
     // mass matrix in base coordinates
-    let t374 = neg_mul_add(t14, t344, neg_mul_add(t15, t331, t351));
+    let t371 = neg_mul_add(t14, t341, neg_mul_add(t15, t328, t348));
     // rotation of the platform seen from the base
-    let t375 = P::triple([P::lane(t254, 2), P::lane(t254, 2), P::lane(t254, 1)]);
+    let t372 = P::triple([P::lane(t250, 2), P::lane(t250, 2), P::lane(t250, 1)]);
     // acceleration that removes the residual wrench
-    let t376 = mul_add(t354, P::splat(P::lane(t308, 0)), t367);
+    let t373 = mul_add(t351, P::splat(P::lane(t305, 0)), t364);
     // mass matrix in base coordinates
-    let t377 = P::triple([P::lane(t357, 1), P::lane(t357, 0), P::lane(t357, 0)]);
+    let t374 = P::triple([P::lane(t354, 1), P::lane(t354, 0), P::lane(t354, 0)]);
     // acceleration that removes the residual wrench
-    let t378 = mul_add(t339, P::splat(P::lane(t308, 1)), t370);
+    let t375 = mul_add(t336, P::splat(P::lane(t305, 1)), t367);
     // rotation of the platform seen from the base
-    let t379 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t376 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t380 = P::triple([P::lane(t347, 1), P::lane(t347, 2), P::lane(t347, 0)]);
+    let t377 = P::triple([P::lane(t344, 1), P::lane(t344, 2), P::lane(t344, 0)]);
     // mass matrix in base coordinates
-    let t381 = neg_mul_add(t375, t377, neg_mul_add(t365, t366, t358));
+    let t378 = neg_mul_add(t372, t374, neg_mul_add(t362, t363, t355));
     // acceleration that removes the residual wrench
-    let t382 = P::mul_add(P::lane(t275, 1), P::lane(t308, 1), t371);
+    let t379 = P::mul_add(P::lane(t272, 1), P::lane(t305, 1), t368);
     // mass matrix in base coordinates
-    let t383 = P::triple([t326, P::lane(t297, 0), P::lane(t297, 0)]);
+    let t380 = P::triple([t323, P::lane(t294, 0), P::lane(t294, 0)]);
     // acceleration that removes the residual wrench
-    let t384 = P::triple([P::lane(t359, 2), P::lane(t359, 2), P::lane(t359, 1)]);
+    let t381 = P::triple([P::lane(t356, 2), P::lane(t356, 2), P::lane(t356, 1)]);
     // wrench left at the trial acceleration
-    let t385 = t337 + t372;
+    let t382 = t334 + t369;
     // mass matrix in base coordinates
-    let t386 = neg_mul_add(t254, t357, t374);
+    let t383 = neg_mul_add(t250, t354, t371);
     // acceleration that removes the residual wrench
-    let t387 = mul_add(t354, P::splat(P::lane(t324, 2)), t378);
+    let t384 = mul_add(t351, P::splat(P::lane(t321, 2)), t375);
     // inertia less external wrench that the actuators must balance
-    let t388 = P::triple([P::lane(t368, 1), P::lane(t368, 2), P::lane(t368, 0)]);
+    let t385 = P::triple([P::lane(t365, 1), P::lane(t365, 2), P::lane(t365, 0)]);
     // acceleration that removes the residual wrench
-    let t389 = mul_sub(t381, P::splat(t382), t383 * t384);
+    let t386 = mul_sub(t378, P::splat(t379), t380 * t381);
     // wrench left at the trial acceleration
-    let t390 = neg_mul_add(t280, t388, mul_add(t379, t380, t373));
+    let t387 = neg_mul_add(t277, t385, mul_add(t376, t377, t370));
     // acceleration that removes the residual wrench
-    let t391 = mul_sub(P::splat(t382), t386, t339 * t359);
+    let t388 = mul_sub(P::splat(t379), t383, t336 * t356);
     // mass matrix in base coordinates
-    let t392 = P::triple([P::lane(t290, 1), t314, t314]);
+    let t389 = P::triple([P::lane(t287, 1), t311, t311]);
     // acceleration that removes the residual wrench
-    let t393 = P::triple([P::lane(t376, 2), P::lane(t376, 2), P::lane(t376, 1)]);
+    let t390 = P::triple([P::lane(t373, 2), P::lane(t373, 2), P::lane(t373, 1)]);
     // rotation of the platform seen from the base
-    let t394 = P::triple([P::lane(t254, 2), P::lane(t254, 0), P::lane(t254, 1)]);
+    let t391 = P::triple([P::lane(t250, 2), P::lane(t250, 0), P::lane(t250, 1)]);
     // wrench left at the trial acceleration
-    let t395 = P::triple([P::lane(t385, 1), P::lane(t385, 2), P::lane(t385, 0)]);
+    let t392 = P::triple([P::lane(t382, 1), P::lane(t382, 2), P::lane(t382, 0)]);
     // acceleration that removes the residual wrench
-    let t396 = P::triple([P::lane(t308, 2), P::lane(t308, 0), P::lane(t308, 1)]);
+    let t393 = P::triple([P::lane(t305, 2), P::lane(t305, 0), P::lane(t305, 1)]);
     // mass matrix in base coordinates
-    let t397 = P::triple([t341, t340, t340]);
+    let t394 = P::triple([t338, t337, t337]);
     // acceleration that removes the residual wrench
-    let t398 = P::triple([P::lane(t387, 2), P::lane(t387, 2), P::lane(t387, 1)]);
+    let t395 = P::triple([P::lane(t384, 2), P::lane(t384, 2), P::lane(t384, 1)]);
     // wrench left at the trial acceleration
-    let t399 = P::triple([P::lane(t385, 2), P::lane(t385, 0), P::lane(t385, 1)]);
+    let t396 = P::triple([P::lane(t382, 2), P::lane(t382, 0), P::lane(t382, 1)]);
     // acceleration that removes the residual wrench
-    let t400 = P::triple([P::lane(t308, 1), P::lane(t308, 2), P::lane(t308, 0)]);
-    let t401 = neg_mul_add(t397, t398, neg_mul_add(t392, t393, t389));
+    let t397 = P::triple([P::lane(t305, 1), P::lane(t305, 2), P::lane(t305, 0)]);
+    let t398 = neg_mul_add(t394, t395, neg_mul_add(t389, t390, t386));
     // wrench left at the trial acceleration
-    let t402 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t368, t394, t390));
+    let t399 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t365, t391, t387));
     // acceleration that removes the residual wrench
-    let t403 = neg_mul_add(t354, t387, neg_mul_add(t332, t376, t391));
-    let t404 = mul_add(t399, t400, mul_add(t324, t385, t395 * t396));
+    let t400 = neg_mul_add(t351, t384, neg_mul_add(t329, t373, t388));
+    let t401 = mul_add(t396, t397, mul_add(t321, t382, t392 * t393));
     // wrench left at the trial acceleration
-    let t405 = mul_add(t1, P::splat(external_wrench[4]), t402);
+    let t402 = mul_add(t1, P::splat(external_wrench[4]), t399);
     // acceleration that removes the residual wrench
-    let t406 = P::triple([P::lane(t401, 1), P::lane(t401, 0), P::lane(t401, 1)]);
-    let t407 = P::triple([P::lane(t401, 2), P::lane(t401, 2), P::lane(t401, 0)]);
+    let t403 = P::triple([P::lane(t398, 1), P::lane(t398, 0), P::lane(t398, 1)]);
+    let t404 = P::triple([P::lane(t398, 2), P::lane(t398, 2), P::lane(t398, 0)]);
     // wrench left at the trial acceleration
-    let t408 = mul_add(t5, P::splat(external_wrench[5]), t405);
+    let t405 = mul_add(t5, P::splat(external_wrench[5]), t402);
     // acceleration that removes the residual wrench
-    let t409 = mul_sub(t406, t407, t401 * t403);
-    let t410 = P::triple([P::lane(t403, 1), P::lane(t403, 0), P::lane(t403, 1)]);
-    let t411 = mul_sub(P::splat(t382), t408, t339 * P::splat(P::lane(t404, 0)));
-    let t412 = P::triple([P::lane(t403, 2), P::lane(t403, 2), P::lane(t403, 0)]);
-    let t413 = mul_sub(t410, t412, t401 * t401);
-    let t414 = P::triple([P::lane(t359, 0), P::lane(t376, 0), P::lane(t387, 0)]);
-    let t415 = P::triple([P::lane(t359, 1), P::lane(t376, 1), P::lane(t387, 1)]);
-    let t416 = neg_mul_add(t332, P::splat(P::lane(t404, 1)), t411);
-    let t417 = P::triple([P::lane(t359, 2), P::lane(t376, 2), P::lane(t387, 2)]);
-    let t418 = P::lane(t401, 2) * P::lane(t409, 2);
-    let t419 = P::triple([P::lane(t409, 2), P::lane(t409, 0), P::lane(t409, 1)]);
-    let t420 = P::triple([P::lane(t409, 1), P::lane(t409, 2), P::lane(t409, 0)]);
+    let t406 = mul_sub(t403, t404, t398 * t400);
+    let t407 = P::triple([P::lane(t400, 1), P::lane(t400, 0), P::lane(t400, 1)]);
+    let t408 = mul_sub(P::splat(t379), t405, t336 * P::splat(P::lane(t401, 0)));
+    let t409 = P::triple([P::lane(t400, 2), P::lane(t400, 2), P::lane(t400, 0)]);
+    let t410 = mul_sub(t407, t409, t398 * t398);
+    let t411 = P::triple([P::lane(t356, 0), P::lane(t373, 0), P::lane(t384, 0)]);
+    let t412 = P::triple([P::lane(t356, 1), P::lane(t373, 1), P::lane(t384, 1)]);
+    let t413 = neg_mul_add(t329, P::splat(P::lane(t401, 1)), t408);
+    let t414 = P::triple([P::lane(t356, 2), P::lane(t373, 2), P::lane(t384, 2)]);
+    let t415 = P::lane(t398, 2) * P::lane(t406, 2);
+    let t416 = P::triple([P::lane(t406, 2), P::lane(t406, 0), P::lane(t406, 1)]);
+    let t417 = P::triple([P::lane(t406, 1), P::lane(t406, 2), P::lane(t406, 0)]);
     // constant and copied elements
-    let t421 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    let t422 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t418 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t419 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // acceleration that removes the residual wrench
-    let t423 = P::mul_add(P::lane(t403, 0), P::lane(t413, 0), t418);
-    let t424 = neg_mul_add(t354, P::splat(P::lane(t404, 2)), t416);
+    let t420 = P::mul_add(P::lane(t400, 0), P::lane(t410, 0), t415);
+    let t421 = neg_mul_add(t351, P::splat(P::lane(t401, 2)), t413);
     // constant and copied elements
-    let t425 = P::triple([c(0.0), c(0.0), c(-9.81)]);
-    let t426 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t422 = P::triple([c(0.0), c(0.0), c(-9.81)]);
+    let t423 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // acceleration that removes the residual wrench
-    let t427 = c(1.0) / P::mul_add(P::lane(t401, 1), P::lane(t409, 1), t423);
-    let t428 = P::triple([P::lane(t424, 1), P::lane(t424, 2), P::lane(t424, 0)]);
-    let t429 = P::triple([P::lane(t424, 2), P::lane(t424, 0), P::lane(t424, 1)]);
-    let t430 = mul_add(t420, t429, mul_add(t413, t424, t419 * t428));
-    let t431 = P::splat(t427) * t430;
-    let t432 = neg_mul_add(t414, P::splat(P::lane(t431, 0)), t404);
+    let t424 = c(1.0) / P::mul_add(P::lane(t398, 1), P::lane(t406, 1), t420);
+    let t425 = P::triple([P::lane(t421, 1), P::lane(t421, 2), P::lane(t421, 0)]);
+    let t426 = P::triple([P::lane(t421, 2), P::lane(t421, 0), P::lane(t421, 1)]);
+    let t427 = mul_add(t417, t426, mul_add(t410, t421, t416 * t425));
+    let t428 = P::splat(t424) * t427;
+    let t429 = neg_mul_add(t411, P::splat(P::lane(t428, 0)), t401);
     // platform acceleration v_p'
-    let t433 = t421 * P::splat(P::lane(t431, 1));
+    let t430 = t418 * P::splat(P::lane(t428, 1));
     // acceleration that removes the residual wrench
-    let t434 = neg_mul_add(t415, P::splat(P::lane(t431, 1)), t432);
+    let t431 = neg_mul_add(t412, P::splat(P::lane(t428, 1)), t429);
     // platform acceleration v_p'
-    let t435 = mul_add(t422, P::splat(P::lane(t431, 0)), t433);
+    let t432 = mul_add(t419, P::splat(P::lane(t428, 0)), t430);
     // acceleration that removes the residual wrench
-    let t436 = neg_mul_add(t417, P::splat(P::lane(t431, 2)), t434);
+    let t433 = neg_mul_add(t414, P::splat(P::lane(t428, 2)), t431);
     // platform acceleration v_p'
-    let t437 = mul_add(t426, P::splat(P::lane(t431, 2)), t435);
+    let t434 = mul_add(t423, P::splat(P::lane(t428, 2)), t432);
     // acceleration that removes the residual wrench
-    let t438 = P::splat(c(1.0) / t382) * t436;
+    let t435 = P::splat(c(1.0) / t379) * t433;
     // platform acceleration v_p'
-    let t439 = t421 * P::splat(P::lane(t438, 1));
-    let t440 = mul_add(t422, P::splat(P::lane(t438, 0)), t439);
-    let t441 = mul_add(t426, P::splat(P::lane(t438, 2)), t425) + t440;
-    forward_dynamics[0] = P::lane(t441, 0);
-    forward_dynamics[1] = P::lane(t441, 1);
-    forward_dynamics[2] = P::lane(t441, 2);
-    forward_dynamics[3] = P::lane(t437, 0);
-    forward_dynamics[4] = P::lane(t437, 1);
-    forward_dynamics[5] = P::lane(t437, 2);
+    let t436 = t418 * P::splat(P::lane(t435, 1));
+    let t437 = mul_add(t419, P::splat(P::lane(t435, 0)), t436);
+    let t438 = mul_add(t423, P::splat(P::lane(t435, 2)), t422) + t437;
+    forward_dynamics[0] = P::lane(t438, 0);
+    forward_dynamics[1] = P::lane(t438, 1);
+    forward_dynamics[2] = P::lane(t438, 2);
+    forward_dynamics[3] = P::lane(t434, 0);
+    forward_dynamics[4] = P::lane(t434, 1);
+    forward_dynamics[5] = P::lane(t434, 2);
 }

@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 72397907c073aed1bf3e63df770aeecbe6a57ee55c0db96a4203977ba946cca3
+// graph     ups.json, sha256 c794f3a0f2c038ff2ec18c6fcad2be73ef70cae601788dd4b6b6a7493ee4ae9b
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -25797,7 +25797,7 @@ pub fn matrices_in_lanes<P: Triple>(
     let c = <P::Lane as Scalar>::constant;
     let w = <P as Scalar>::constant;
     let (
-        t203, t205, t207, t256, t257, t258, t598, t605, t711, t712, t713, t718, t724, t725, t726,
+        t203, t205, t207, t256, t257, t258, t598, t608, t711, t712, t713, t718, t724, t725, t726,
         t733, t743, t744, t745, t750, t751, t752, t832, t847, t849, t862, t874, t875, t906, t913,
         t914, t915, t916, t917, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928,
         t929, t930, t931, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t943, t944,
@@ -26445,7 +26445,7 @@ pub fn matrices_in_lanes<P: Triple>(
         let t361 = mul_sub(t202, t329, t331);
         // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
         let t362 = mul_sub(t212, t273, neg_mul_add(t174, t250, t275));
-        let t363 = mul_sub(t212, t285, neg_mul_add(t174, t249, t293));
+        let t363 = mul_sub(t212, t272, neg_mul_add(t174, t248, t277));
         // legs 1, 2, 3: leg inertia between joint and base speeds
         let t364 = mul_sub(t154, t279, neg_mul_add(t124, t207, t282));
         let t365 = mul_sub(t154, t294, neg_mul_add(t124, t205, t295));
@@ -26459,7 +26459,7 @@ pub fn matrices_in_lanes<P: Triple>(
         // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
         let t371 = mul_add(t203, t335, t336);
         // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
-        let t372 = mul_sub(t212, t272, neg_mul_add(t174, t248, t277));
+        let t372 = mul_sub(t212, t285, neg_mul_add(t174, t249, t293));
         // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
         let t373 = mul_add(t207, t333, t338);
         // second moment of payload and platform-side leg ends
@@ -26499,7 +26499,7 @@ pub fn matrices_in_lanes<P: Triple>(
         let t398 = mul_sub(t258, t350, t257 * t334);
         let t399 = mul_sub(t256, t334, t258 * t337);
         let t400 = mul_sub(t250, t309, t362);
-        let t401 = mul_sub(t249, t309, t363);
+        let t401 = mul_sub(t248, t309, t363);
         // legs 1, 2, 3: leg inertia between joint and base speeds
         let t402 = mul_sub(t207, t356, t205 * t343);
         // legs 4, 5, 6: leg inertia between joint and base speeds
@@ -26518,7 +26518,7 @@ pub fn matrices_in_lanes<P: Triple>(
         let t411 = mul_add(t202, t367, mul_sub(t148, t332, t138 * t311));
         // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
         let t412 = mul_sub(t257, t337, t256 * t350);
-        let t413 = mul_sub(t248, t309, t372);
+        let t413 = mul_sub(t249, t309, t372);
         // Coriolis matrix of the legs
         let t414 = mul_sub(t264, t355, t254 * t329);
         let t415 = mul_sub(t255, t307, t264 * t308);
@@ -26540,20 +26540,20 @@ pub fn matrices_in_lanes<P: Triple>(
             P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
         // legs 4, 5, 6: leg inertia between joint and base speeds
         let t426 = mul_sub(t212, t340, neg_mul_add(t174, t258, t344));
-        let t427 = mul_sub(t212, t353, neg_mul_add(t174, t257, t357));
+        let t427 = mul_sub(t212, t339, neg_mul_add(t174, t256, t346));
         // mass matrix of the legs
         let t428 = mul_add(t205, t236, t329);
         let t429 = mul_add(t207, t236, t341);
         let t430 = mul_add(t196, t396, t397);
         // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
-        let t431 = mul_add(t256, t399, t400);
-        let t432 = mul_add(t258, t398, t401);
+        let t431 = neg_mul_add(t257, t398, t400);
+        let t432 = neg_mul_add(t258, t399, t401);
         // second moment of payload and platform-side leg ends
         let t433 = mul_add(P::splat(t374), w(0.5), t395) - t425;
         // legs 1, 2, 3: leg inertia between joint and base speeds
         let t434 = mul_add(t203, t404, t405);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t435 = mul_sub(t212, t339, neg_mul_add(t174, t256, t346));
+        let t435 = mul_sub(t212, t353, neg_mul_add(t174, t257, t357));
         // legs 1, 2, 3: leg inertia between joint and base speeds
         let t436 = mul_add(t207, t402, t407);
         // mass matrix of the legs
@@ -26561,10 +26561,10 @@ pub fn matrices_in_lanes<P: Triple>(
         let t438 = neg_mul_add(t196, t408, t410);
         let t439 = neg_mul_add(t196, t409, t411);
         // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
-        let t440 = mul_sub(t256, t412, t401);
-        let t441 = neg_mul_add(t257, t398, t400);
-        let t442 = mul_add(t257, t412, t413);
-        let t443 = neg_mul_add(t258, t399, t413);
+        let t440 = mul_add(t256, t399, t400);
+        let t441 = mul_sub(t256, t412, t413);
+        let t442 = mul_add(t257, t412, t401);
+        let t443 = mul_add(t258, t398, t413);
         // Coriolis matrix of the legs
         let t444 = mul_add(t195, t368, t196 * t347) - t414;
         let t445 = mul_add(t196, t369, t202 * t348) - t415;
@@ -26615,19 +26615,19 @@ pub fn matrices_in_lanes<P: Triple>(
         let t479 = mul_sub(t258, t417, t257 * t403);
         let t480 = mul_sub(t256, t403, t258 * t406);
         let t481 = mul_sub(t258, t309, t426);
-        let t482 = mul_sub(t257, t309, t427);
+        let t482 = mul_sub(t256, t309, t427);
         // Coriolis matrix of the legs
         let t483 = mul_add(t202, t445, mul_add(t148, t390, t138 * t384));
         let t484 = mul_add(t195, t446, mul_add(t134, t393, t148 * t382));
         let t485 = mul_add(t196, t444, mul_add(t138, t389, t134 * t383));
         // Coriolis matrix C_b, natural factorisation
-        let t486 = mul_add(t196, t432, mul_add(t148, t379, t138 * t373));
-        let t487 = mul_add(t202, t431, mul_add(t134, t381, t148 * t371));
+        let t486 = mul_add(t202, t431, mul_add(t148, t379, t138 * t373));
+        let t487 = mul_add(t195, t432, mul_add(t134, t381, t148 * t371));
         // second moment of payload and platform-side leg ends
         let t488 = P::triple([P::lane(t216, 1), P::lane(t269, 2), P::lane(t216, 2)]);
         // legs 4, 5, 6: leg inertia between joint and base speeds
         let t489 = mul_sub(t257, t406, t256 * t417);
-        let t490 = mul_sub(t256, t309, t435);
+        let t490 = mul_sub(t257, t309, t435);
         // mass matrix of the legs
         let t491 = mul_sub(t195, t341, t202 * t355);
         let t492 = mul_sub(t196, t355, t195 * t329);
@@ -26641,13 +26641,13 @@ pub fn matrices_in_lanes<P: Triple>(
         let t499 = mul_add(t196, t456, mul_add(t138, t388, t134 * t390));
         let t500 = mul_add(t196, t457, mul_sub(t138, t382, t134 * t391));
         // Coriolis matrix C_b, natural factorisation
-        let t501 = mul_add(t196, t443, mul_add(t148, t386, t138 * t381));
-        let t502 = neg_mul_add(t196, t455, mul_sub(t148, t380, t138 * t387));
-        let t503 = neg_mul_add(t202, t453, mul_sub(t134, t373, t148 * t385));
-        let t504 = neg_mul_add(t202, t440, mul_sub(t134, t387, t148 * t378));
-        let t505 = mul_add(t195, t441, mul_add(t138, t385, t134 * t379));
-        let t506 = neg_mul_add(t195, t454, mul_sub(t138, t371, t134 * t386));
-        let t507 = neg_mul_add(t195, t442, mul_sub(t138, t378, t134 * t380));
+        let t501 = mul_add(t202, t454, mul_add(t148, t386, t138 * t381));
+        let t502 = mul_add(t202, t442, mul_sub(t148, t380, t138 * t387));
+        let t503 = mul_add(t195, t443, mul_sub(t134, t373, t148 * t385));
+        let t504 = mul_add(t195, t455, mul_sub(t134, t387, t148 * t378));
+        let t505 = mul_add(t196, t453, mul_add(t138, t385, t134 * t379));
+        let t506 = mul_add(t196, t440, mul_sub(t138, t371, t134 * t386));
+        let t507 = mul_add(t196, t441, mul_sub(t138, t378, t134 * t380));
         // Coriolis matrix of the legs
         let t508 = mul_sub(t202, t359, t462);
         let t509 = mul_add(t202, t369, t463);
@@ -26664,8 +26664,8 @@ pub fn matrices_in_lanes<P: Triple>(
         let t518 = mul_add(t195, t349, t476);
         let t519 = mul_add(t196, t347, t477);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t520 = mul_add(t256, t480, t481);
-        let t521 = mul_add(t258, t479, t482);
+        let t520 = neg_mul_add(t257, t479, t481);
+        let t521 = neg_mul_add(t258, t480, t482);
         // mass matrix of the legs
         let t522 = mul_add(t207, t247, t308);
         let t523 = P::triple([P::lane(t437, 0), P::lane(t428, 0), P::lane(t429, 0)]);
@@ -26678,50 +26678,48 @@ pub fn matrices_in_lanes<P: Triple>(
         let t529 = mul_add(t202, t457, t484);
         let t530 = mul_add(t195, t459, t485);
         // Coriolis matrix C_b, natural factorisation
-        let t531 = mul_add(t202, t441, t486);
-        let t532 = mul_add(t195, t443, t487);
+        let t531 = mul_add(t196, t443, t486);
+        let t532 = mul_add(t202, t440, t487);
         // constant and copied elements
         let t533 =
             P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t534 = mul_sub(t256, t489, t482);
-        let t535 = neg_mul_add(t257, t479, t481);
-        let t536 = mul_add(t257, t489, t490);
-        let t537 = neg_mul_add(t258, t480, t490);
+        let t534 = neg_mul_add(t90, t123, t212);
+        let t535 = mul_add(t256, t480, t481);
+        let t536 = mul_sub(t256, t489, t490);
+        let t537 = mul_add(t257, t489, t482);
+        let t538 = mul_add(t258, t479, t490);
         // mass matrix of the legs
-        let t538 = t271 + t307;
-        let t539 = neg_mul_add(t202, t491, t493);
-        let t540 = neg_mul_add(t202, t492, t494);
-        let t541 = P::triple([P::lane(t438, 0), -P::lane(t430, 0), P::lane(t439, 0)]);
-        let t542 = P::triple([P::lane(t438, 1), -P::lane(t430, 1), P::lane(t439, 1)]);
+        let t539 = t271 + t307;
+        let t540 = neg_mul_add(t202, t491, t493);
+        let t541 = neg_mul_add(t202, t492, t494);
+        let t542 = P::triple([P::lane(t438, 0), -P::lane(t430, 0), P::lane(t439, 0)]);
+        let t543 = P::triple([P::lane(t438, 1), -P::lane(t430, 1), P::lane(t439, 1)]);
         // Coriolis matrix of the legs
-        let t543 = t313 + t368;
-        let t544 = t297 + t358;
-        let t545 = t298 + t359;
-        let t546 = t314 + t369;
-        let t547 = t315 + t370;
-        let t548 = t301 + t360;
-        let t549 = mul_add(t196, t446, t495);
-        let t550 = neg_mul_add(t196, t461, t496);
-        let t551 = neg_mul_add(t202, t456, t497);
-        let t552 = mul_add(t202, t444, t498);
-        let t553 = mul_add(t195, t445, t499);
-        let t554 = neg_mul_add(t195, t458, t500);
+        let t544 = t313 + t368;
+        let t545 = t297 + t358;
+        let t546 = t298 + t359;
+        let t547 = t314 + t369;
+        let t548 = t315 + t370;
+        let t549 = t301 + t360;
+        let t550 = mul_add(t196, t446, t495);
+        let t551 = neg_mul_add(t196, t461, t496);
+        let t552 = neg_mul_add(t202, t456, t497);
+        let t553 = mul_add(t202, t444, t498);
+        let t554 = mul_add(t195, t445, t499);
+        let t555 = neg_mul_add(t195, t458, t500);
         // Coriolis matrix C_b, natural factorisation
-        let t555 = mul_add(t202, t454, t501);
-        let t556 = mul_add(t202, t442, t502);
-        let t557 = mul_add(t195, t432, t503);
-        let t558 = mul_add(t195, t455, t504);
-        let t559 = mul_add(t196, t453, t505);
-        let t560 = mul_add(t196, t431, t506);
-        let t561 = mul_add(t196, t440, t507);
+        let t556 = mul_add(t196, t432, t501);
+        let t557 = neg_mul_add(t196, t455, t502);
+        let t558 = neg_mul_add(t202, t453, t503);
+        let t559 = neg_mul_add(t202, t441, t504);
+        let t560 = mul_add(t195, t431, t505);
+        let t561 = neg_mul_add(t195, t454, t506);
+        let t562 = neg_mul_add(t195, t442, t507);
         // second moment of payload and platform-side leg ends
-        let t562 = mul_add(t447 * t448, P::splat(parameters.payload_mass), t488) - t533;
+        let t563 = mul_add(t447 * t448, P::splat(parameters.payload_mass), t488) - t533;
         // legs 1, 2, 3: leg inertia between joint and base speeds
-        let t563 = neg_mul_add(t203, t514, t471);
-        // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t564 = neg_mul_add(t90, t123, t212);
-        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t564 = neg_mul_add(t203, t514, t471);
         let t565 = t203 * t516;
         // legs 4, 5, 6: leg inertia between joint and base speeds
         let t566 = t256 * t479;
@@ -26741,9 +26739,9 @@ pub fn matrices_in_lanes<P: Triple>(
         let t575 = t393 + t446;
         // Coriolis matrix C_b, natural factorisation
         let t576 = mul_add(t203, t333, t453);
-        let t577 = t379 + t441;
+        let t577 = t379 + t431;
         let t578 = mul_add(t205, t335, t454);
-        let t579 = t381 + t443;
+        let t579 = t381 + t432;
         let t580 = mul_add(t207, t351, t455);
         // first moment of payload and platform-side leg ends
         let t581 = P::triple([P::lane(t468, 0), P::lane(t469, 0), P::lane(t470, 0)]);
@@ -26763,36 +26761,36 @@ pub fn matrices_in_lanes<P: Triple>(
         let t592 = t384 + t460;
         let t593 = t394 + t461;
         // Coriolis matrix C_b, natural factorisation
-        let t594 = t371 + t431;
-        let t595 = t378 + t440;
+        let t594 = t371 + t440;
+        let t595 = t378 + t441;
         let t596 = t380 + t442;
-        let t597 = t373 + t432;
+        let t597 = t373 + t443;
         // mass matrix of the legs
         let t598 = t523 + t524 + t587;
         let t599 = P::triple([P::lane(t438, 2), -P::lane(t430, 2), P::lane(t439, 2)]);
         // mass matrix M_b that couples the base acceleration
-        let t600 = mul_add(t196, t521, mul_add(t148, t450, t138 * t436));
-        let t601 = mul_add(t202, t520, mul_add(t134, t452, t148 * t434));
+        let t600 = mul_add(t202, t520, mul_add(t148, t450, t138 * t436));
+        let t601 = mul_add(t195, t521, mul_add(t134, t452, t148 * t434));
         // mass matrix M_p of the platform
         let t602 = platform_rotation[1][1] * P::lane(t478, 1);
         let t603 = platform_rotation[2][1] * P::lane(t478, 1);
-        // mass matrix of the legs
-        let t604 = mul_add(t196, t492, mul_sub(t138, t377, t134 * t332));
-        let t605 = t541 + t542 + t599;
-        // mass matrix M_b that couples the base acceleration
-        let t606 = mul_add(t196, t537, mul_add(t148, t473, t138 * t452));
-        let t607 = neg_mul_add(t196, t572, mul_sub(t148, t451, t138 * t474));
-        let t608 = neg_mul_add(t202, t566, mul_sub(t134, t436, t148 * t472));
-        let t609 = neg_mul_add(t202, t534, mul_sub(t134, t474, t148 * t449));
-        let t610 = mul_add(t195, t535, mul_add(t138, t472, t134 * t450));
-        let t611 = neg_mul_add(t195, t569, mul_sub(t138, t434, t134 * t473));
-        let t612 = neg_mul_add(t195, t536, mul_sub(t138, t449, t134 * t451));
-        // first moment of payload and platform-side leg ends
-        let t613 = P::triple([P::lane(t468, 2), P::lane(t469, 2), P::lane(t470, 2)]);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t614 = t256 * t564;
-        let t615 = t257 * t564;
-        let t616 = t258 * t564;
+        let t604 = t256 * t534;
+        let t605 = t257 * t534;
+        let t606 = t258 * t534;
+        // mass matrix of the legs
+        let t607 = mul_add(t196, t492, mul_sub(t138, t377, t134 * t332));
+        let t608 = t542 + t543 + t599;
+        // mass matrix M_b that couples the base acceleration
+        let t609 = mul_add(t202, t569, mul_add(t148, t473, t138 * t452));
+        let t610 = mul_add(t202, t537, mul_sub(t148, t451, t138 * t474));
+        let t611 = mul_add(t195, t538, mul_sub(t134, t436, t148 * t472));
+        let t612 = mul_add(t195, t572, mul_sub(t134, t474, t148 * t449));
+        let t613 = mul_add(t196, t566, mul_add(t138, t472, t134 * t450));
+        let t614 = mul_add(t196, t535, mul_sub(t138, t434, t134 * t473));
+        let t615 = mul_add(t196, t536, mul_sub(t138, t449, t134 * t451));
+        // first moment of payload and platform-side leg ends
+        let t616 = P::triple([P::lane(t468, 2), P::lane(t469, 2), P::lane(t470, 2)]);
         // mass matrix of the legs
         let t617 = neg_mul_add(t196, t341, t586);
         let t618 = t321 + t361;
@@ -26805,73 +26803,73 @@ pub fn matrices_in_lanes<P: Triple>(
         let t624 = P::triple([P::lane(t519, 1), -P::lane(t512, 1), -P::lane(t513, 1)]);
         // mass matrix M_p of the platform
         let t625 = platform_rotation[0][1] * P::lane(t478, 1);
-        let t626 = platform_rotation[1][1] * P::lane(t562, 0);
-        let t627 = P::mul_add(platform_rotation[1][0], P::lane(t562, 0), t602);
-        let t628 = platform_rotation[2][1] * P::lane(t562, 0);
-        let t629 = P::mul_add(platform_rotation[2][0], P::lane(t562, 0), t603);
-        // mass matrix of the legs
-        let t630 = t376 + t491;
-        let t631 = t377 + t492;
-        let t632 = t330 + t366;
-        let t633 = t332 + t367;
-        let t634 = t310 + t408;
-        let t635 = t303 + t396;
-        let t636 = t311 + t409;
-        let t637 = P::lane(t522, 1) + P::lane(t522, 0);
-        // mass matrix M_b that couples the base acceleration
-        let t638 = mul_add(t202, t535, t600);
-        let t639 = mul_add(t195, t537, t601);
-        // Coriolis matrix of the legs
-        let t640 = P::triple([-P::lane(t525, 0), P::lane(t543, 0), P::lane(t544, 0)]);
-        let t641 = P::triple([-P::lane(t525, 1), P::lane(t543, 1), P::lane(t544, 1)]);
-        let t642 = P::triple([P::lane(t545, 0), -P::lane(t526, 0), P::lane(t546, 0)]);
-        let t643 = P::triple([P::lane(t545, 1), -P::lane(t526, 1), P::lane(t546, 1)]);
-        let t644 = P::triple([P::lane(t547, 0), P::lane(t548, 0), -P::lane(t527, 0)]);
-        let t645 = P::triple([P::lane(t547, 1), P::lane(t548, 1), -P::lane(t527, 1)]);
+        let t626 = platform_rotation[1][1] * P::lane(t563, 0);
+        let t627 = P::mul_add(platform_rotation[1][0], P::lane(t563, 0), t602);
+        let t628 = platform_rotation[2][1] * P::lane(t563, 0);
+        let t629 = P::mul_add(platform_rotation[2][0], P::lane(t563, 0), t603);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t646 = neg_mul_add(t256, t614, t564);
-        let t647 = t256 * t616;
-        let t648 = t257 * t614;
-        let t649 = neg_mul_add(t257, t615, t564);
-        let t650 = t258 * t615;
-        let t651 = neg_mul_add(t258, t616, t564);
+        let t630 = neg_mul_add(t256, t604, t534);
+        let t631 = neg_mul_add(t257, t605, t534);
+        let t632 = neg_mul_add(t258, t606, t534);
         // mass matrix of the legs
-        let t652 = t261 + t342;
-        let t653 = neg_mul_add(t195, t367, t604);
-        let t654 = P::lane(t540, 1) + P::lane(t540, 0);
+        let t633 = t376 + t491;
+        let t634 = t377 + t492;
+        let t635 = t330 + t366;
+        let t636 = t332 + t367;
+        let t637 = t310 + t408;
+        let t638 = t303 + t396;
+        let t639 = t311 + t409;
+        let t640 = P::lane(t522, 1) + P::lane(t522, 0);
         // mass matrix M_b that couples the base acceleration
-        let t655 = mul_add(t202, t569, t606);
-        let t656 = mul_add(t202, t536, t607);
-        let t657 = mul_add(t195, t521, t608);
-        let t658 = mul_add(t195, t572, t609);
-        let t659 = mul_add(t196, t566, t610);
-        let t660 = mul_add(t196, t520, t611);
-        let t661 = mul_add(t196, t534, t612);
+        let t641 = mul_add(t196, t538, t600);
+        let t642 = mul_add(t202, t535, t601);
         // Coriolis matrix of the legs
-        let t662 = P::triple([-P::lane(t528, 0), P::lane(t549, 0), P::lane(t550, 0)]);
-        let t663 = P::triple([-P::lane(t528, 1), P::lane(t549, 1), P::lane(t550, 1)]);
-        let t664 = P::triple([P::lane(t551, 0), -P::lane(t529, 0), P::lane(t552, 0)]);
-        let t665 = P::triple([P::lane(t551, 1), -P::lane(t529, 1), P::lane(t552, 1)]);
-        let t666 = P::triple([P::lane(t553, 0), P::lane(t554, 0), -P::lane(t530, 0)]);
-        let t667 = P::triple([P::lane(t553, 1), P::lane(t554, 1), -P::lane(t530, 1)]);
+        let t643 = P::triple([-P::lane(t525, 0), P::lane(t544, 0), P::lane(t545, 0)]);
+        let t644 = P::triple([-P::lane(t525, 1), P::lane(t544, 1), P::lane(t545, 1)]);
+        let t645 = P::triple([P::lane(t546, 0), -P::lane(t526, 0), P::lane(t547, 0)]);
+        let t646 = P::triple([P::lane(t546, 1), -P::lane(t526, 1), P::lane(t547, 1)]);
+        let t647 = P::triple([P::lane(t548, 0), P::lane(t549, 0), -P::lane(t527, 0)]);
+        let t648 = P::triple([P::lane(t548, 1), P::lane(t549, 1), -P::lane(t527, 1)]);
+        // mass matrix of the legs
+        let t649 = t261 + t342;
+        let t650 = neg_mul_add(t195, t367, t607);
+        let t651 = P::lane(t541, 1) + P::lane(t541, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t652 = mul_add(t196, t521, t609);
+        let t653 = neg_mul_add(t196, t572, t610);
+        let t654 = neg_mul_add(t202, t566, t611);
+        let t655 = neg_mul_add(t202, t536, t612);
+        let t656 = mul_add(t195, t520, t613);
+        let t657 = neg_mul_add(t195, t569, t614);
+        let t658 = neg_mul_add(t195, t537, t615);
+        // Coriolis matrix of the legs
+        let t659 = P::triple([-P::lane(t528, 0), P::lane(t550, 0), P::lane(t551, 0)]);
+        let t660 = P::triple([-P::lane(t528, 1), P::lane(t550, 1), P::lane(t551, 1)]);
+        let t661 = P::triple([P::lane(t552, 0), -P::lane(t529, 0), P::lane(t553, 0)]);
+        let t662 = P::triple([P::lane(t552, 1), -P::lane(t529, 1), P::lane(t553, 1)]);
+        let t663 = P::triple([P::lane(t554, 0), P::lane(t555, 0), -P::lane(t530, 0)]);
+        let t664 = P::triple([P::lane(t554, 1), P::lane(t555, 1), -P::lane(t530, 1)]);
         // Coriolis matrix C_b, natural factorisation
-        let t668 = P::triple([-P::lane(t531, 0), P::lane(t555, 0), P::lane(t556, 0)]);
-        let t669 = P::triple([-P::lane(t531, 1), P::lane(t555, 1), P::lane(t556, 1)]);
-        let t670 = P::triple([P::lane(t557, 0), -P::lane(t532, 0), P::lane(t558, 0)]);
-        let t671 = P::triple([P::lane(t557, 1), -P::lane(t532, 1), P::lane(t558, 1)]);
-        let t672 = P::triple([P::lane(t559, 0), P::lane(t560, 0), P::lane(t561, 0)]);
-        let t673 = P::triple([P::lane(t559, 1), P::lane(t560, 1), P::lane(t561, 1)]);
+        let t665 = P::triple([-P::lane(t531, 0), P::lane(t556, 0), P::lane(t557, 0)]);
+        let t666 = P::triple([-P::lane(t531, 1), P::lane(t556, 1), P::lane(t557, 1)]);
+        let t667 = P::triple([P::lane(t558, 0), -P::lane(t532, 0), P::lane(t559, 0)]);
+        let t668 = P::triple([P::lane(t558, 1), -P::lane(t532, 1), P::lane(t559, 1)]);
+        let t669 = P::triple([P::lane(t560, 0), P::lane(t561, 0), P::lane(t562, 0)]);
+        let t670 = P::triple([P::lane(t560, 1), P::lane(t561, 1), P::lane(t562, 1)]);
         // first moment of payload and platform-side leg ends
-        let t674 = mul_add(t424, P::splat(parameters.payload_mass), t581 + t582 + t613);
+        let t671 = mul_add(t424, P::splat(parameters.payload_mass), t581 + t582 + t616);
         // legs 4, 5, 6: leg inertia between joint and base speeds
-        let t675 = t256 * t615;
-        let t676 = t257 * t616;
-        let t677 = t258 * t614;
+        let t672 = t256 * t605;
+        let t673 = t256 * t606;
+        let t674 = t257 * t604;
+        let t675 = t257 * t606;
+        let t676 = t258 * t604;
+        let t677 = t258 * t605;
         // mass matrix M_b that couples the base acceleration
         let t678 = mul_add(t203, t402, t566);
-        let t679 = t450 + t535;
+        let t679 = t450 + t520;
         let t680 = mul_add(t205, t404, t569);
-        let t681 = t452 + t537;
+        let t681 = t452 + t521;
         let t682 = mul_add(t207, t418, t572);
         // Coriolis matrix of the legs
         let t683 = P::triple([P::lane(t588, 0), P::lane(t589, 0), -P::lane(t573, 0)]);
@@ -26891,65 +26889,65 @@ pub fn matrices_in_lanes<P: Triple>(
         let t696 = P::triple([P::lane(t597, 0), -P::lane(t579, 0), P::lane(t580, 0)]);
         let t697 = P::triple([P::lane(t597, 1), -P::lane(t579, 1), P::lane(t580, 1)]);
         // mass matrix M_p of the platform
-        let t698 = platform_rotation[0][1] * P::lane(t562, 0);
-        let t699 = P::mul_add(platform_rotation[0][0], P::lane(t562, 0), t625);
+        let t698 = platform_rotation[0][1] * P::lane(t563, 0);
+        let t699 = P::mul_add(platform_rotation[0][0], P::lane(t563, 0), t625);
         let t700 = P::mul_add(platform_rotation[1][0], P::lane(t478, 0), t626);
         let t701 = P::mul_add(platform_rotation[2][0], P::lane(t478, 0), t628);
         // mass matrix of the legs
-        let t702 = P::triple([P::lane(t598, 1), P::lane(t538, 2), P::lane(t522, 2)]);
-        let t703 = P::triple([c(0.0), P::lane(t538, 1) + P::lane(t538, 0), t637]);
+        let t702 = P::triple([P::lane(t598, 1), P::lane(t539, 2), P::lane(t522, 2)]);
+        let t703 = P::triple([c(0.0), P::lane(t539, 1) + P::lane(t539, 0), t640]);
         // mass matrix M_b that couples the base acceleration
-        let t704 = t434 + t520;
-        let t705 = t449 + t534;
-        let t706 = t451 + t536;
-        let t707 = t436 + t521;
+        let t704 = t434 + t535;
+        let t705 = t449 + t536;
+        let t706 = t451 + t537;
+        let t707 = t436 + t538;
         // Coriolis matrix of the legs
-        let t708 = P::triple([-P::lane(t525, 2), P::lane(t543, 2), P::lane(t544, 2)]);
-        let t709 = P::triple([P::lane(t545, 2), -P::lane(t526, 2), P::lane(t546, 2)]);
-        let t710 = P::triple([P::lane(t547, 2), P::lane(t548, 2), -P::lane(t527, 2)]);
+        let t708 = P::triple([-P::lane(t525, 2), P::lane(t544, 2), P::lane(t545, 2)]);
+        let t709 = P::triple([P::lane(t546, 2), -P::lane(t526, 2), P::lane(t547, 2)]);
+        let t710 = P::triple([P::lane(t548, 2), P::lane(t549, 2), -P::lane(t527, 2)]);
         let t711 = t619 + t620 + t689;
         let t712 = t621 + t622 + t690;
         let t713 = t623 + t624 + t691;
         // mass matrix M_p of the platform
-        let t714 = P::mul_add(platform_rotation[1][2], P::lane(t562, 1), t627);
-        let t715 = platform_rotation[1][1] * P::lane(t562, 1);
-        let t716 = P::mul_add(platform_rotation[2][2], P::lane(t562, 1), t629);
-        let t717 = platform_rotation[2][1] * P::lane(t562, 1);
+        let t714 = P::mul_add(platform_rotation[1][2], P::lane(t563, 1), t627);
+        let t715 = platform_rotation[1][1] * P::lane(t563, 1);
+        let t716 = P::mul_add(platform_rotation[2][2], P::lane(t563, 1), t629);
+        let t717 = platform_rotation[2][1] * P::lane(t563, 1);
         // mass matrix of the legs
         let t718 = t702 + t703;
-        let t719 = P::triple([P::lane(t605, 1), P::lane(t539, 2), P::lane(t540, 2)]);
-        let t720 = P::triple([c(0.0), P::lane(t539, 1) + P::lane(t539, 0), t654]);
+        let t719 = P::triple([P::lane(t608, 1), P::lane(t540, 2), P::lane(t541, 2)]);
+        let t720 = P::triple([c(0.0), P::lane(t540, 1) + P::lane(t540, 0), t651]);
         // mass matrix M_b that couples the base acceleration
-        let t721 = mul_add(t196, t650, mul_add(t148, t568, t138 * t570));
-        let t722 = mul_add(t202, t647, mul_add(t134, t571, t148 * t565));
-        let t723 = mul_add(t195, t648, mul_add(t138, t563, t134 * t567));
+        let t721 = mul_add(t202, t631, mul_add(t148, t568, t138 * t570));
+        let t722 = mul_add(t195, t632, mul_add(t134, t571, t148 * t565));
+        let t723 = mul_add(t196, t630, mul_add(t138, t564, t134 * t567));
         // Coriolis matrix of the legs
-        let t724 = t640 + t641 + t708;
-        let t725 = t642 + t643 + t709;
-        let t726 = t644 + t645 + t710;
-        let t727 = P::triple([-P::lane(t528, 2), P::lane(t549, 2), P::lane(t550, 2)]);
-        let t728 = P::triple([P::lane(t551, 2), -P::lane(t529, 2), P::lane(t552, 2)]);
-        let t729 = P::triple([P::lane(t553, 2), P::lane(t554, 2), -P::lane(t530, 2)]);
+        let t724 = t643 + t644 + t708;
+        let t725 = t645 + t646 + t709;
+        let t726 = t647 + t648 + t710;
+        let t727 = P::triple([-P::lane(t528, 2), P::lane(t550, 2), P::lane(t551, 2)]);
+        let t728 = P::triple([P::lane(t552, 2), -P::lane(t529, 2), P::lane(t553, 2)]);
+        let t729 = P::triple([P::lane(t554, 2), P::lane(t555, 2), -P::lane(t530, 2)]);
         // Coriolis matrix C_b, natural factorisation
-        let t730 = P::triple([-P::lane(t531, 2), P::lane(t555, 2), P::lane(t556, 2)]);
-        let t731 = P::triple([P::lane(t557, 2), -P::lane(t532, 2), P::lane(t558, 2)]);
-        let t732 = P::triple([P::lane(t559, 2), P::lane(t560, 2), P::lane(t561, 2)]);
+        let t730 = P::triple([-P::lane(t531, 2), P::lane(t556, 2), P::lane(t557, 2)]);
+        let t731 = P::triple([P::lane(t558, 2), -P::lane(t532, 2), P::lane(t559, 2)]);
+        let t732 = P::triple([P::lane(t560, 2), P::lane(t561, 2), P::lane(t562, 2)]);
         // mass matrix of the legs
         let t733 = t719 + t720;
         // mass matrix M_b that couples the base acceleration
-        let t734 = neg_mul_add(t196, t677, mul_sub(t148, t567, t138 * t585));
-        let t735 = mul_add(t196, t651, mul_add(t148, t584, t138 * t571));
-        let t736 = mul_add(t202, t646, mul_add(t134, t585, t148 * t563));
-        let t737 = neg_mul_add(t202, t675, mul_sub(t134, t570, t148 * t583));
-        let t738 = mul_add(t195, t649, mul_add(t138, t583, t134 * t568));
-        let t739 = neg_mul_add(t195, t676, mul_sub(t138, t565, t134 * t584));
+        let t734 = mul_add(t202, t674, mul_sub(t148, t567, t138 * t585));
+        let t735 = mul_add(t202, t675, mul_add(t148, t584, t138 * t571));
+        let t736 = mul_add(t195, t676, mul_add(t134, t585, t148 * t564));
+        let t737 = mul_add(t195, t677, mul_sub(t134, t570, t148 * t583));
+        let t738 = mul_add(t196, t672, mul_add(t138, t583, t134 * t568));
+        let t739 = mul_add(t196, t673, mul_sub(t138, t565, t134 * t584));
         // Coriolis matrix of the legs
         let t740 = P::triple([P::lane(t588, 2), P::lane(t589, 2), -P::lane(t573, 2)]);
         let t741 = P::triple([-P::lane(t574, 2), P::lane(t590, 2), P::lane(t591, 2)]);
         let t742 = P::triple([P::lane(t592, 2), -P::lane(t575, 2), P::lane(t593, 2)]);
-        let t743 = t662 + t663 + t727;
-        let t744 = t664 + t665 + t728;
-        let t745 = t666 + t667 + t729;
+        let t743 = t659 + t660 + t727;
+        let t744 = t661 + t662 + t728;
+        let t745 = t663 + t664 + t729;
         // Coriolis matrix C_b, natural factorisation
         let t746 = P::triple([P::lane(t576, 2), P::lane(t594, 2), P::lane(t595, 2)]);
         let t747 = P::triple([-P::lane(t577, 2), P::lane(t578, 2), P::lane(t596, 2)]);
@@ -26961,54 +26959,54 @@ pub fn matrices_in_lanes<P: Triple>(
         let t751 = t685 + t686 + t741;
         let t752 = t687 + t688 + t742;
         // mass matrix M_p of the platform
-        let t753 = P::mul_add(platform_rotation[0][2], P::lane(t562, 1), t699);
-        let t754 = platform_rotation[0][1] * P::lane(t562, 1);
-        let t755 = P::mul_add(platform_rotation[1][2], P::lane(t562, 2), t700);
-        let t756 = P::mul_add(platform_rotation[1][0], P::lane(t562, 2), t715);
-        let t757 = P::mul_add(platform_rotation[2][2], P::lane(t562, 2), t701);
-        let t758 = P::mul_add(platform_rotation[2][0], P::lane(t562, 2), t717);
+        let t753 = P::mul_add(platform_rotation[0][2], P::lane(t563, 1), t699);
+        let t754 = platform_rotation[0][1] * P::lane(t563, 1);
+        let t755 = P::mul_add(platform_rotation[1][2], P::lane(t563, 2), t700);
+        let t756 = P::mul_add(platform_rotation[1][0], P::lane(t563, 2), t715);
+        let t757 = P::mul_add(platform_rotation[2][2], P::lane(t563, 2), t701);
+        let t758 = P::mul_add(platform_rotation[2][0], P::lane(t563, 2), t717);
         // mass matrix of the legs
-        let t759 = P::triple([P::lane(t617, 0), P::lane(t630, 0), P::lane(t631, 0)]);
-        let t760 = P::triple([P::lane(t617, 1), P::lane(t630, 1), P::lane(t631, 1)]);
-        let t761 = P::triple([P::lane(t632, 0), -P::lane(t618, 0), P::lane(t633, 0)]);
-        let t762 = P::triple([P::lane(t632, 1), -P::lane(t618, 1), P::lane(t633, 1)]);
-        let t763 = P::triple([P::lane(t634, 0), P::lane(t635, 0), P::lane(t636, 0)]);
-        let t764 = P::triple([P::lane(t634, 1), P::lane(t635, 1), P::lane(t636, 1)]);
+        let t759 = P::triple([P::lane(t617, 0), P::lane(t633, 0), P::lane(t634, 0)]);
+        let t760 = P::triple([P::lane(t617, 1), P::lane(t633, 1), P::lane(t634, 1)]);
+        let t761 = P::triple([P::lane(t635, 0), -P::lane(t618, 0), P::lane(t636, 0)]);
+        let t762 = P::triple([P::lane(t635, 1), -P::lane(t618, 1), P::lane(t636, 1)]);
+        let t763 = P::triple([P::lane(t637, 0), P::lane(t638, 0), P::lane(t639, 0)]);
+        let t764 = P::triple([P::lane(t637, 1), P::lane(t638, 1), P::lane(t639, 1)]);
         // mass of payload and platform-side leg ends
         let t765 = t78 + t101;
         // mass matrix M_b that couples the base acceleration
-        let t766 = mul_add(t202, t649, t721);
-        let t767 = mul_add(t195, t651, t722);
-        let t768 = mul_add(t196, t646, t723);
-        let t769 = mul_add(t202, t648, t734);
-        let t770 = mul_add(t202, t676, t735);
-        let t771 = mul_add(t195, t677, t736);
-        let t772 = mul_add(t195, t650, t737);
-        let t773 = mul_add(t196, t675, t738);
-        let t774 = mul_add(t196, t647, t739);
-        let t775 = P::triple([-P::lane(t638, 0), P::lane(t655, 0), P::lane(t656, 0)]);
-        let t776 = P::triple([-P::lane(t638, 1), P::lane(t655, 1), P::lane(t656, 1)]);
-        let t777 = P::triple([P::lane(t657, 0), -P::lane(t639, 0), P::lane(t658, 0)]);
-        let t778 = P::triple([P::lane(t657, 1), -P::lane(t639, 1), P::lane(t658, 1)]);
-        let t779 = P::triple([P::lane(t659, 0), P::lane(t660, 0), P::lane(t661, 0)]);
-        let t780 = P::triple([P::lane(t659, 1), P::lane(t660, 1), P::lane(t661, 1)]);
+        let t766 = mul_add(t196, t677, t721);
+        let t767 = mul_add(t202, t673, t722);
+        let t768 = mul_add(t195, t674, t723);
+        let t769 = neg_mul_add(t196, t676, t734);
+        let t770 = mul_add(t196, t632, t735);
+        let t771 = mul_add(t202, t630, t736);
+        let t772 = neg_mul_add(t202, t672, t737);
+        let t773 = mul_add(t195, t631, t738);
+        let t774 = neg_mul_add(t195, t675, t739);
+        let t775 = P::triple([-P::lane(t641, 0), P::lane(t652, 0), P::lane(t653, 0)]);
+        let t776 = P::triple([-P::lane(t641, 1), P::lane(t652, 1), P::lane(t653, 1)]);
+        let t777 = P::triple([P::lane(t654, 0), -P::lane(t642, 0), P::lane(t655, 0)]);
+        let t778 = P::triple([P::lane(t654, 1), -P::lane(t642, 1), P::lane(t655, 1)]);
+        let t779 = P::triple([P::lane(t656, 0), P::lane(t657, 0), P::lane(t658, 0)]);
+        let t780 = P::triple([P::lane(t656, 1), P::lane(t657, 1), P::lane(t658, 1)]);
         // mass matrix M_p of the platform
-        let t781 = P::mul_add(platform_rotation[0][2], P::lane(t562, 2), t749);
-        let t782 = P::mul_add(platform_rotation[0][0], P::lane(t562, 2), t754);
+        let t781 = P::mul_add(platform_rotation[0][2], P::lane(t563, 2), t749);
+        let t782 = P::mul_add(platform_rotation[0][0], P::lane(t563, 2), t754);
         // mass matrix of the legs
-        let t783 = P::triple([P::lane(t617, 2), P::lane(t630, 2), P::lane(t631, 2)]);
-        let t784 = P::triple([P::lane(t632, 2), -P::lane(t618, 2), P::lane(t633, 2)]);
-        let t785 = P::triple([P::lane(t634, 2), P::lane(t635, 2), P::lane(t636, 2)]);
+        let t783 = P::triple([P::lane(t617, 2), P::lane(t633, 2), P::lane(t634, 2)]);
+        let t784 = P::triple([P::lane(t635, 2), -P::lane(t618, 2), P::lane(t636, 2)]);
+        let t785 = P::triple([P::lane(t637, 2), P::lane(t638, 2), P::lane(t639, 2)]);
         // mass matrix M_b that couples the base acceleration
-        let t786 = t563 + t646;
-        let t787 = mul_add(t203, t515, t675);
-        let t788 = mul_add(t203, t516, t647);
-        let t789 = mul_add(t205, t514, t648);
-        let t790 = t568 + t649;
-        let t791 = mul_add(t205, t516, t676);
-        let t792 = mul_add(t207, t514, t677);
-        let t793 = mul_add(t207, t515, t650);
-        let t794 = t571 + t651;
+        let t786 = t564 + t630;
+        let t787 = mul_add(t203, t515, t672);
+        let t788 = mul_add(t203, t516, t673);
+        let t789 = mul_add(t205, t514, t674);
+        let t790 = t568 + t631;
+        let t791 = mul_add(t205, t516, t675);
+        let t792 = mul_add(t207, t514, t676);
+        let t793 = mul_add(t207, t515, t677);
+        let t794 = t571 + t632;
         let t795 = P::triple([P::lane(t678, 0), P::lane(t704, 0), P::lane(t705, 0)]);
         let t796 = P::triple([P::lane(t678, 1), P::lane(t704, 1), P::lane(t705, 1)]);
         let t797 = P::triple([-P::lane(t679, 0), P::lane(t680, 0), P::lane(t706, 0)]);
@@ -27022,9 +27020,9 @@ pub fn matrices_in_lanes<P: Triple>(
         let t803 = P::triple([P::lane(t712, 1), P::lane(t712, 2), P::lane(t712, 0)]);
         let t804 = P::triple([P::lane(t713, 1), P::lane(t713, 2), P::lane(t713, 0)]);
         // mass matrix M_p of the platform
-        let t805 = platform_rotation[2][1] * P::lane(t674, 1);
-        let t806 = platform_rotation[1][1] * P::lane(t674, 1);
-        let t807 = platform_rotation[0][1] * P::lane(t674, 1);
+        let t805 = platform_rotation[2][1] * P::lane(t671, 1);
+        let t806 = platform_rotation[1][1] * P::lane(t671, 1);
+        let t807 = platform_rotation[0][1] * P::lane(t671, 1);
         let t808 = P::mul_add(platform_rotation[1][0], t755, platform_rotation[1][1] * t714);
         let t809 = P::mul_add(platform_rotation[1][2], P::lane(t478, 2), t756);
         let t810 = P::mul_add(platform_rotation[2][0], t757, platform_rotation[2][1] * t716);
@@ -27032,25 +27030,25 @@ pub fn matrices_in_lanes<P: Triple>(
         // mass matrix of the legs
         let t812 = t759 + t760 + t783;
         let t813 = t761 + t762 + t784;
-        let t814 = P::triple([P::lane(t598, 2), P::lane(t718, 2), P::lane(t652, 2)]);
-        let t815 = P::triple([c(0.0), c(0.0), P::lane(t652, 1) + P::lane(t652, 0)]);
+        let t814 = P::triple([P::lane(t598, 2), P::lane(t718, 2), P::lane(t649, 2)]);
+        let t815 = P::triple([c(0.0), c(0.0), P::lane(t649, 1) + P::lane(t649, 0)]);
         let t816 = t763 + t764 + t785;
         // Coriolis matrix of the legs
         let t817 = P::triple([P::lane(t724, 1), P::lane(t724, 2), P::lane(t724, 0)]);
         let t818 = P::triple([P::lane(t725, 1), P::lane(t725, 2), P::lane(t725, 0)]);
         let t819 = P::triple([P::lane(t726, 1), P::lane(t726, 2), P::lane(t726, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t820 = neg_mul_add(t801, t802, t743 + (t668 + t669 + t730));
-        let t821 = neg_mul_add(t801, t803, t744 + (t670 + t671 + t731));
-        let t822 = neg_mul_add(t801, t804, t745 + (t672 + t673 + t732));
+        let t820 = neg_mul_add(t801, t802, t743 + (t665 + t666 + t730));
+        let t821 = neg_mul_add(t801, t803, t744 + (t667 + t668 + t731));
+        let t822 = neg_mul_add(t801, t804, t745 + (t669 + t670 + t732));
         // mass matrix of the legs
         let t823 = t814 + t815;
-        let t824 = P::triple([P::lane(t605, 2), P::lane(t733, 2), P::lane(t653, 2)]);
-        let t825 = P::triple([c(0.0), c(0.0), P::lane(t653, 1) + P::lane(t653, 0)]);
+        let t824 = P::triple([P::lane(t608, 2), P::lane(t733, 2), P::lane(t650, 2)]);
+        let t825 = P::triple([c(0.0), c(0.0), P::lane(t650, 1) + P::lane(t650, 0)]);
         // mass matrix M_b that couples the base acceleration
-        let t826 = P::triple([-P::lane(t638, 2), P::lane(t655, 2), P::lane(t656, 2)]);
-        let t827 = P::triple([P::lane(t657, 2), -P::lane(t639, 2), P::lane(t658, 2)]);
-        let t828 = P::triple([P::lane(t659, 2), P::lane(t660, 2), P::lane(t661, 2)]);
+        let t826 = P::triple([-P::lane(t641, 2), P::lane(t652, 2), P::lane(t653, 2)]);
+        let t827 = P::triple([P::lane(t654, 2), -P::lane(t642, 2), P::lane(t655, 2)]);
+        let t828 = P::triple([P::lane(t656, 2), P::lane(t657, 2), P::lane(t658, 2)]);
         // Coriolis matrix C_b, natural factorisation
         let t829 = mul_add(t801, t817, t750 + (t692 + t693 + t746));
         let t830 = mul_add(t801, t818, t751 + (t694 + t695 + t747));
@@ -27062,9 +27060,9 @@ pub fn matrices_in_lanes<P: Triple>(
         let t834 = P::triple([-P::lane(t679, 2), P::lane(t680, 2), P::lane(t706, 2)]);
         let t835 = P::triple([P::lane(t707, 2), -P::lane(t681, 2), P::lane(t682, 2)]);
         // mass matrix M_p of the platform
-        let t836 = P::mul_add(platform_rotation[2][0], P::lane(t674, 0), t805);
-        let t837 = P::mul_add(platform_rotation[1][0], P::lane(t674, 0), t806);
-        let t838 = P::mul_add(platform_rotation[0][0], P::lane(t674, 0), t807);
+        let t836 = P::mul_add(platform_rotation[2][0], P::lane(t671, 0), t805);
+        let t837 = P::mul_add(platform_rotation[1][0], P::lane(t671, 0), t806);
+        let t838 = P::mul_add(platform_rotation[0][0], P::lane(t671, 0), t807);
         let t839 = P::mul_add(platform_rotation[0][0], t781, platform_rotation[0][1] * t753);
         let t840 = P::mul_add(platform_rotation[0][2], P::lane(t478, 2), t782);
         // platform origin seen from the base
@@ -27091,9 +27089,9 @@ pub fn matrices_in_lanes<P: Triple>(
         let t857 = P::triple([-P::lane(t768, 0), P::lane(t773, 0), P::lane(t774, 0)]);
         let t858 = P::triple([-P::lane(t768, 1), P::lane(t773, 1), P::lane(t774, 1)]);
         // mass matrix M_p of the platform
-        let t859 = P::mul_add(platform_rotation[2][2], P::lane(t674, 2), t836);
-        let t860 = P::mul_add(platform_rotation[1][2], P::lane(t674, 2), t837);
-        let t861 = P::mul_add(platform_rotation[0][2], P::lane(t674, 2), t838);
+        let t859 = P::mul_add(platform_rotation[2][2], P::lane(t671, 2), t836);
+        let t860 = P::mul_add(platform_rotation[1][2], P::lane(t671, 2), t837);
+        let t861 = P::mul_add(platform_rotation[0][2], P::lane(t671, 2), t838);
         let t862 = P::mul_add(platform_rotation[0][2], t840, t839);
         // mass of payload and platform-side leg ends
         let t863 = P::lane(t765, 2) + (P::lane(t765, 1) + P::lane(t765, 0));
@@ -27122,7 +27120,7 @@ pub fn matrices_in_lanes<P: Triple>(
         let t880 = P::triple([P::lane(t718, 1), P::lane(t718, 2), P::lane(t598, 1)]);
         let t881 = P::triple([P::lane(t718, 2), P::lane(t823, 2), P::lane(t598, 2)]);
         // mass matrix M_b that couples the base acceleration
-        let t882 = mul_add(t801, t870, t605 + (t775 + t776 + t826));
+        let t882 = mul_add(t801, t870, t608 + (t775 + t776 + t826));
         let t883 = mul_add(t801, t871, t733 + (t777 + t778 + t827));
         let t884 = mul_add(t801, t872, t832 + (t779 + t780 + t828));
         // Coriolis matrix C_b, natural factorisation
@@ -27241,10 +27239,10 @@ pub fn matrices_in_lanes<P: Triple>(
         let t960 = t860 - P::lane(t816, 0);
         mass_matrix_p[2][3] = t960;
         mass_matrix_p[3][2] = t960;
-        let t961 = P::lane(t605, 1) - t874;
+        let t961 = P::lane(t608, 1) - t874;
         mass_matrix_p[3][4] = t961;
         mass_matrix_p[4][3] = t961;
-        let t962 = P::lane(t605, 2) - t875;
+        let t962 = P::lane(t608, 2) - t875;
         mass_matrix_p[3][5] = t962;
         mass_matrix_p[5][3] = t962;
         let t963 = P::lane(t733, 2) - t876;
@@ -27278,7 +27276,7 @@ pub fn matrices_in_lanes<P: Triple>(
         // mass matrix M_p of the platform
         mass_matrix_p[1][1] = P::lane(t945, 1);
         (
-            t203, t205, t207, t256, t257, t258, t598, t605, t711, t712, t713, t718, t724, t725,
+            t203, t205, t207, t256, t257, t258, t598, t608, t711, t712, t713, t718, t724, t725,
             t726, t733, t743, t744, t745, t750, t751, t752, t832, t847, t849, t862, t874, t875,
             t906, t913, t914, t915, t916, t917, t918, t919, t920, t921, t922, t923, t924, t925,
             t926, t927, t928, t929, t930, t931, t933, t934, t935, t936, t937, t938, t939, t940,
@@ -27293,7 +27291,7 @@ pub fn matrices_in_lanes<P: Triple>(
         mass_matrix_p[2][1] = P::lane(t718, 2);
         // mass matrix M_p of the platform
         mass_matrix_p[2][2] = P::lane(t946, 2);
-        mass_matrix_p[3][3] = t919 - t862 + P::lane(t605, 0);
+        mass_matrix_p[3][3] = t919 - t862 + P::lane(t608, 0);
         mass_matrix_p[4][4] = P::lane(t733, 1) + (t919 - t847);
         mass_matrix_p[5][5] = P::lane(t832, 2) + (t919 - t849);
         // Coriolis matrix of the legs
@@ -29239,406 +29237,423 @@ pub fn control_in_lanes<P: Triple>(
     let t371 = mul_sub(t110, P::splat(P::lane(t353, 0)), t359);
     let t372 = mul_add(t111, P::splat(P::lane(t322, 0)), t364);
     // mass matrix of the legs
-    let t373 = mul_add(t303, t347, mul_sub(t269, t305, t266 * t344));
-    let t374 = mul_sub(t303, t329, t321 * t354);
-    let t375 = mul_add(t303, t349, mul_sub(t269, t312, t266 * t345));
-    let t376 = mul_sub(t306, t354, t303 * t324);
+    let t373 = mul_add(t321, t324, mul_sub(t266, t304, t270 * t274));
+    let t374 = mul_add(t303, t347, mul_sub(t269, t305, t266 * t344));
+    let t375 = mul_sub(t303, t329, t321 * t354);
+    let t376 = mul_add(t303, t349, mul_sub(t269, t312, t266 * t345));
+    let t377 = mul_sub(t306, t354, t303 * t324);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t377 = mul_add(t136, t192, mul_add(t125, t180, t118 * t172));
+    let t378 = mul_add(t136, t192, mul_add(t125, t180, t118 * t172));
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t378 = mul_add(t64 - t362, t370, t146 * t363);
+    let t379 = mul_add(t64 - t362, t370, t146 * t363);
     // mass of payload and platform-side leg ends
-    let t379 = t149 + t162;
+    let t380 = t149 + t162;
     // moment of the legs' inertia at their joints about the platform origin
-    let t380 = P::triple([P::lane(t355, 0), P::lane(t356, 0), P::lane(t357, 0)]);
-    let t381 = P::triple([P::lane(t355, 1), P::lane(t356, 1), P::lane(t357, 1)]);
+    let t381 = P::triple([P::lane(t355, 0), P::lane(t356, 0), P::lane(t357, 0)]);
+    let t382 = P::triple([P::lane(t355, 1), P::lane(t356, 1), P::lane(t357, 1)]);
+    // mass matrix of the legs
+    let t383 = t323 + t339;
+    // mass matrix M_p of the platform
+    let t384 = t326 + t340;
+    let t385 = t327 + t341;
     // constant and copied elements
-    let t382 =
+    let t386 =
         P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t383 = mul_add(t119, t170, mul_add(t105, t151, t97 * t139));
+    let t387 = mul_add(t119, t170, mul_add(t105, t151, t97 * t139));
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t384 = mul_add(t59 - t368, t382, t126 * t369);
+    let t388 = mul_add(t59 - t368, t386, t126 * t369);
     // inertia force less weight, without the actuators' own shares
-    let t385 = t299 + t331;
-    let t386 = t300 + t332;
-    let t387 = t301 + t333;
+    let t389 = t299 + t331;
+    let t390 = t300 + t332;
+    let t391 = t301 + t333;
     // first moments by platform coordinate of the payload's inertia force
-    let t388 = mul_add(t112, P::splat(P::lane(t322, 1)), t372);
+    let t392 = mul_add(t112, P::splat(P::lane(t322, 1)), t372);
     // mass matrix of the legs
-    let t389 = neg_mul_add(t321, t374, t373);
-    let t390 = neg_mul_add(t321, t376, t375);
-    let t391 = P::triple([P::lane(t360, 0), -P::lane(t358, 0), P::lane(t361, 0)]);
-    let t392 = P::triple([P::lane(t360, 1), -P::lane(t358, 1), P::lane(t361, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t393 = mul_add(t136, t193, mul_add(t125, t181, t118 * t173));
-    // first moments by platform coordinate of the payload's inertia force
-    let t394 = t100 * P::splat(P::lane(t322, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t395 = P::triple([P::lane(t355, 2), P::lane(t356, 2), P::lane(t357, 2)]);
-    let t396 = t380 + t381 + t395;
-    // mass matrix of the legs
-    let t397 = mul_add(t243, t264, t311);
-    let t398 = P::triple([P::lane(t367, 0), P::lane(t365, 0), P::lane(t366, 0)]);
-    let t399 = P::triple([P::lane(t367, 1), P::lane(t365, 1), P::lane(t366, 1)]);
+    let t393 = neg_mul_add(t306, t329, t373);
+    let t394 = neg_mul_add(t321, t375, t374);
+    let t395 = neg_mul_add(t321, t377, t376);
+    let t396 = P::triple([P::lane(t360, 0), -P::lane(t358, 0), P::lane(t361, 0)]);
+    let t397 = P::triple([P::lane(t360, 1), -P::lane(t358, 1), P::lane(t361, 1)]);
     // mass matrix M_p of the platform
-    let t400 = t326 + t340;
+    let t398 = t344 + t375;
+    let t399 = t345 + t377;
+    let t400 = t313 + t351;
+    let t401 = t305 + t347;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t402 = mul_add(t136, t193, mul_add(t125, t181, t118 * t173));
+    // first moments by platform coordinate of the payload's inertia force
+    let t403 = t100 * P::splat(P::lane(t322, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t404 = P::triple([P::lane(t355, 2), P::lane(t356, 2), P::lane(t357, 2)]);
+    // mass matrix of the legs
+    let t405 = t312 + t349;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t406 = t381 + t382 + t404;
+    // mass matrix of the legs
+    let t407 = mul_add(t243, t264, t311);
+    let t408 = P::triple([P::lane(t367, 0), P::lane(t365, 0), P::lane(t366, 0)]);
+    let t409 = P::triple([P::lane(t367, 1), P::lane(t365, 1), P::lane(t366, 1)]);
     // constant and copied elements
-    let t401 =
+    let t410 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t402 = mul_add(t321, t324, mul_sub(t266, t304, t270 * t274));
-    let t403 = t292 + t310;
-    let t404 = P::triple([P::lane(t360, 2), -P::lane(t358, 2), P::lane(t361, 2)]);
-    // mass matrix M_p of the platform
-    let t405 = t327 + t341;
+    let t411 = t292 + t310;
+    let t412 = P::triple([P::lane(t360, 2), -P::lane(t358, 2), P::lane(t361, 2)]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t406 = mul_add(t119, t171, mul_add(t105, t152, t97 * t140));
+    let t413 = mul_add(t119, t171, mul_add(t105, t152, t97 * t140));
     // first moments by platform coordinate of the payload's inertia force
-    let t407 = mul_sub(t110, P::splat(P::lane(t353, 1)), t388);
-    let t408 = mul_add(t111, P::splat(P::lane(t322, 2)), t394);
-    let t409 = P::triple([P::lane(t371, 2), P::lane(t371, 0), P::lane(t371, 1)]);
+    let t414 = mul_sub(t110, P::splat(P::lane(t353, 1)), t392);
+    let t415 = mul_add(t111, P::splat(P::lane(t322, 2)), t403);
+    let t416 = P::triple([P::lane(t371, 2), P::lane(t371, 0), P::lane(t371, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t410 = P::splat(parameters.payload_com[1]) * t401;
+    let t417 = P::splat(parameters.payload_com[1]) * t410;
     // mass matrix of the legs
-    let t411 = mul_add(t306, t376, mul_sub(t270, t345, t269 * t327));
-    let t412 = t391 + t392 + t404;
+    let t418 = mul_add(t306, t377, mul_sub(t270, t345, t269 * t327));
+    let t419 = t396 + t397 + t412;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t413 = mul_add(t136, t262, mul_add(t125, t260, t118 * t261));
+    let t420 = mul_add(t136, t262, mul_add(t125, t260, t118 * t261));
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t414 = mul_add(t276, t393, mul_sub(t246, t377, t378));
+    let t421 = mul_add(t276, t402, mul_sub(t246, t378, t379));
     // mass matrix M_p of the platform
-    let t415 = platform_rotation[2][1] * P::lane(t353, 1);
+    let t422 = platform_rotation[2][1] * P::lane(t353, 1);
     // mass matrix of the legs
-    let t416 = P::triple([P::lane(t367, 2), P::lane(t365, 2), P::lane(t366, 2)]);
+    let t423 = P::triple([P::lane(t367, 2), P::lane(t365, 2), P::lane(t366, 2)]);
     // mass matrix M_p of the platform
-    let t417 = t345 + t376;
-    let t418 = t305 + t347;
-    let t419 = platform_rotation[0][1] * P::lane(t353, 1);
+    let t424 = P::triple([P::lane(t384, 0), P::lane(t383, 0), P::lane(t385, 0)]);
+    let t425 = P::triple([P::lane(t384, 1), P::lane(t383, 1), P::lane(t385, 1)]);
+    let t426 = platform_rotation[0][1] * P::lane(t353, 1);
     // constant and copied elements
-    let t420 =
+    let t427 =
         P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
     // mass matrix of the legs
-    let t421 = t323 + t339;
-    let t422 = t398 + t399 + t416;
-    // mass matrix M_p of the platform
-    let t423 = t344 + t374;
-    let t424 = t313 + t351;
+    let t428 = t408 + t409 + t423;
     // inertia force less weight, without the actuators' own shares
-    let t425 = P::triple([P::lane(t385, 0), P::lane(t386, 0), P::lane(t387, 0)]);
-    let t426 = P::triple([P::lane(t385, 1), P::lane(t386, 1), P::lane(t387, 1)]);
+    let t429 = P::triple([P::lane(t389, 0), P::lane(t390, 0), P::lane(t391, 0)]);
+    let t430 = P::triple([P::lane(t389, 1), P::lane(t390, 1), P::lane(t391, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t427 = mul_add(P::splat(parameters.payload_com[0]), t420, t410);
-    // mass matrix of the legs
-    let t428 = neg_mul_add(t306, t329, t402);
+    let t431 = mul_add(P::splat(parameters.payload_com[0]), t427, t417);
+    // mass matrix M_p of the platform
+    let t432 = -P::lane(t398, 0);
+    let t433 = -P::lane(t399, 0);
+    let t434 = -P::lane(t398, 1);
+    let t435 = -P::lane(t399, 1);
     // mass of payload and platform-side leg ends
-    let t429 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
+    let t436 = P::lane(t380, 2) + (P::lane(t380, 1) + P::lane(t380, 0));
     // mass matrix M_p of the platform
-    let t430 = platform_rotation[0][1] * P::lane(t322, 0);
+    let t437 = platform_rotation[0][1] * P::lane(t322, 0);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t431 = mul_add(t119, t235, mul_add(t105, t233, t97 * t234));
+    let t438 = mul_add(t119, t235, mul_add(t105, t233, t97 * t234));
     // first moments by platform coordinate of the payload's inertia force
-    let t432 = mul_add(t112, P::splat(P::lane(t328, 2)), t408);
+    let t439 = mul_add(t112, P::splat(P::lane(t328, 2)), t415);
     // rotation of the platform seen from the base
-    let t433 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t440 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t434 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
+    let t441 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t435 = mul_add(t247, t406, mul_sub(t221, t383, t384));
+    let t442 = mul_add(t247, t413, mul_sub(t221, t387, t388));
     // mass matrix M_p of the platform
-    let t436 = P::mul_add(platform_rotation[2][0], P::lane(t353, 0), t415);
-    let t437 = platform_rotation[1][1] * P::lane(t353, 1);
+    let t443 = P::mul_add(platform_rotation[2][0], P::lane(t353, 0), t422);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t438 = mul_sub(t289, t306, t272 * t321);
-    let t439 = mul_sub(t288, t321, t289 * t303);
-    let t440 = mul_sub(t272, t303, t288 * t306);
+    let t444 = mul_sub(t289, t306, t272 * t321);
+    let t445 = mul_sub(t288, t321, t289 * t303);
+    let t446 = mul_sub(t272, t303, t288 * t306);
     // mass matrix of the legs
-    let t441 = t312 + t349;
-    let t442 = neg_mul_add(t303, t341, t411);
-    let t443 = P::lane(t390, 1) + P::lane(t390, 0);
-    // moment of the inertia force about the platform origin
-    let t444 = mul_add(t433, t434, neg_mul_add(t66, t409, t396));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t445 = neg_mul_add(t320, t413, t414);
+    let t447 = neg_mul_add(t303, t341, t418);
+    let t448 = P::lane(t395, 1) + P::lane(t395, 0);
+    let t449 = P::triple([P::lane(t393, 1), t434, t435]);
     // mass matrix M_p of the platform
-    let t446 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t419);
+    let t450 = P::triple([P::lane(t384, 2), P::lane(t383, 2), P::lane(t385, 2)]);
+    let t451 = P::triple([-P::lane(t400, 0), -P::lane(t401, 0), P::lane(t405, 0)]);
+    let t452 = P::triple([-P::lane(t400, 1), -P::lane(t401, 1), P::lane(t405, 1)]);
+    // moment of the inertia force about the platform origin
+    let t453 = mul_add(t440, t441, neg_mul_add(t66, t416, t406));
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t454 = neg_mul_add(t320, t420, t421);
+    // mass matrix M_p of the platform
+    let t455 = platform_rotation[1][1] * P::lane(t353, 1);
+    let t456 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t426);
+    // mass matrix of the legs
+    let t457 = P::triple([P::lane(t393, 0), t432, t433]) + t449;
+    // mass matrix M_p of the platform
+    let t458 = t424 + t425 + t450;
     // inertia force less weight, without the actuators' own shares
-    let t447 = P::triple([P::lane(t385, 2), P::lane(t386, 2), P::lane(t387, 2)]);
+    let t459 = P::triple([P::lane(t389, 2), P::lane(t390, 2), P::lane(t391, 2)]);
     // constant and copied elements
-    let t448 =
+    let t460 =
         P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // mass matrix of the legs
-    let t449 = P::lane(t397, 1) + P::lane(t397, 0);
+    let t461 = P::lane(t407, 1) + P::lane(t407, 0);
+    // mass matrix M_p of the platform
+    let t462 = -P::lane(t398, 2);
+    let t463 = -P::lane(t399, 2);
     // mass of payload and platform-side leg ends
-    let t450 = parameters.payload_mass + t429;
+    let t464 = parameters.payload_mass + t436;
     // mass matrix M_p of the platform
-    let t451 = P::mul_add(platform_rotation[0][0], P::lane(t328, 0), t430);
+    let t465 = P::mul_add(platform_rotation[0][0], P::lane(t328, 0), t437);
     // constant and copied elements
-    let t452 =
+    let t466 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // mass matrix M_p of the platform
-    let t453 = P::mul_add(platform_rotation[1][0], P::lane(t353, 0), t437);
     // inertia less external wrench that the actuators must balance
-    let t454 = mul_add(P::splat(parameters.payload_com[2]), t448, t427);
+    let t467 = mul_add(P::splat(parameters.payload_com[2]), t460, t431);
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t455 = mul_sub(t243, t270, t248 * t266);
-    let t456 = mul_sub(t241, t266, t243 * t269);
-    let t457 = mul_sub(t248, t269, t241 * t270);
+    let t468 = mul_sub(t243, t270, t248 * t266);
+    let t469 = mul_sub(t241, t266, t243 * t269);
+    let t470 = mul_sub(t248, t269, t241 * t270);
     // mass matrix of the legs
-    let t458 = t275 + t330;
-    let t459 = P::triple([P::lane(t412, 1), P::lane(t389, 2), P::lane(t390, 2)]);
-    let t460 = P::triple([c(0.0), P::lane(t389, 1) + P::lane(t389, 0), t443]);
+    let t471 = t275 + t330;
+    let t472 = P::triple([P::lane(t419, 1), P::lane(t394, 2), P::lane(t395, 2)]);
+    let t473 = P::triple([c(0.0), P::lane(t394, 1) + P::lane(t394, 0), t448]);
     // mass matrix M_p of the platform
-    let t461 = P::lane(t328, 2) + (P::lane(t328, 0) + P::lane(t328, 1));
-    let t462 = platform_rotation[0][1] * P::lane(t328, 1);
-    let t463 = P::splat(P::lane(t322, 0)) * t452;
+    let t474 = P::triple([-P::lane(t400, 2), -P::lane(t401, 2), P::lane(t405, 2)]);
+    let t475 = P::lane(t328, 2) + (P::lane(t328, 0) + P::lane(t328, 1));
+    let t476 = platform_rotation[0][1] * P::lane(t328, 1);
+    let t477 = P::splat(P::lane(t322, 0)) * t466;
     // first moments by platform coordinate of the payload's inertia force
-    let t464 = mul_sub(t110, P::splat(P::lane(t353, 2)), t432);
-    let t465 = P::triple([P::lane(t407, 2), P::lane(t407, 0), P::lane(t407, 1)]);
+    let t478 = mul_sub(t110, P::splat(P::lane(t353, 2)), t439);
+    let t479 = P::triple([P::lane(t414, 2), P::lane(t414, 0), P::lane(t414, 1)]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t466 = neg_mul_add(t284, t431, t435);
+    let t480 = neg_mul_add(t284, t438, t442);
     // mass matrix M_p of the platform
-    let t467 = P::mul_add(platform_rotation[2][2], P::lane(t353, 2), t436);
+    let t481 = P::mul_add(platform_rotation[2][2], P::lane(t353, 2), t443);
+    let t482 = P::mul_add(platform_rotation[1][0], P::lane(t353, 0), t455);
     // mass matrix of the legs
-    let t468 = t459 + t460;
+    let t483 = t472 + t473;
+    let t484 = t457 + P::triple([P::lane(t393, 2), t462, t463]);
     // mass matrix M_p of the platform
-    let t469 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t446);
+    let t485 = t451 + t452 + t474;
+    let t486 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t456);
     // mass matrix of the legs
-    let t470 = P::triple([P::lane(t422, 1), P::lane(t403, 2), P::lane(t397, 2)]);
-    let t471 = P::triple([c(0.0), P::lane(t403, 1) + P::lane(t403, 0), t449]);
+    let t487 = P::triple([P::lane(t428, 1), P::lane(t411, 2), P::lane(t407, 2)]);
+    let t488 = P::triple([c(0.0), P::lane(t411, 1) + P::lane(t411, 0), t461]);
     // constant and copied elements
-    let t472 =
+    let t489 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t473 = neg_mul_add(t110, P::splat(t450), t425 + t426 + t447);
+    let t490 = neg_mul_add(t110, P::splat(t464), t429 + t430 + t459);
     // mass matrix of the legs
-    let t474 = t470 + t471;
+    let t491 = t487 + t488;
     // mass matrix M_p of the platform
-    let t475 = P::mul_add(platform_rotation[0][2], P::lane(t322, 2), t451);
+    let t492 = P::mul_add(platform_rotation[0][2], P::lane(t322, 2), t465);
     // constant and copied elements
-    let t476 =
+    let t493 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t477 = P::mul_add(platform_rotation[0][0], P::lane(t322, 0), t462);
-    let t478 = mul_add(P::splat(P::lane(t328, 0)), t472, t463);
-    let t479 = P::mul_add(platform_rotation[1][2], P::lane(t353, 2), t453);
+    let t494 = P::mul_add(platform_rotation[0][0], P::lane(t322, 0), t476);
+    let t495 = mul_add(P::splat(P::lane(t328, 0)), t489, t477);
     // constant and copied elements
-    let t480 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t481 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    let t496 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t497 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
     // mass matrix M_p of the platform
-    let t482 = t412 + P::triple([t461, c(0.0), c(0.0)]);
-    let t483 = platform_rotation[0][1] * P::lane(t322, 1);
-    let t484 = P::splat(P::lane(t328, 1)) * t452;
-    let t485 = P::splat(P::lane(t322, 0)) * t476;
+    let t498 = t419 + P::triple([t475, c(0.0), c(0.0)]);
+    let t499 = platform_rotation[0][1] * P::lane(t322, 1);
+    let t500 = P::splat(P::lane(t328, 1)) * t466;
+    let t501 = P::splat(P::lane(t322, 0)) * t493;
     // rotation of the platform seen from the base
-    let t486 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t502 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t487 = P::triple([P::lane(t407, 1), P::lane(t407, 2), P::lane(t407, 0)]);
+    let t503 = P::triple([P::lane(t414, 1), P::lane(t414, 2), P::lane(t414, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t488 = mul_add(t455, t466, t438 * t445);
-    let t489 = mul_add(t456, t466, t439 * t445);
-    let t490 = mul_add(t457, t466, t440 * t445);
-    // moment of the inertia force about the platform origin
-    let t491 = neg_mul_add(t486, t487, mul_sub(t65, t465, t444));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t492 = mul_add(t241, t466, t288 * t445);
-    let t493 = mul_add(t248, t466, t272 * t445);
-    let t494 = mul_add(t243, t466, t289 * t445);
-    // mass matrix of the legs
-    let t495 = P::lane(t421, 2) + (P::lane(t421, 1) + P::lane(t421, 0));
-    mass_matrix_p[1][4] = t495;
-    mass_matrix_p[4][1] = t495;
+    let t504 = mul_add(t468, t480, t444 * t454);
+    let t505 = mul_add(t469, t480, t445 * t454);
+    let t506 = mul_add(t470, t480, t446 * t454);
     // mass matrix M_p of the platform
-    let t496 = t469 - (P::lane(t405, 2) + (P::lane(t405, 1) + P::lane(t405, 0)));
-    mass_matrix_p[1][5] = t496;
-    mass_matrix_p[5][1] = t496;
-    let t497 = P::triple([c(0.0), t450, c(0.0)]);
+    let t507 = P::mul_add(platform_rotation[1][2], P::lane(t353, 2), t482);
+    // moment of the inertia force about the platform origin
+    let t508 = neg_mul_add(t502, t503, mul_sub(t65, t479, t453));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t509 = mul_add(t241, t480, t288 * t454);
+    let t510 = mul_add(t248, t480, t272 * t454);
+    let t511 = mul_add(t243, t480, t289 * t454);
+    // mass matrix M_p of the platform
+    let t512 = t486 - P::lane(t458, 2);
+    mass_matrix_p[1][5] = t512;
+    mass_matrix_p[5][1] = t512;
+    let t513 = P::triple([c(0.0), t464, c(0.0)]);
     // constant and copied elements
-    let t498 =
+    let t514 =
         P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t499 =
+    let t515 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
     // inertia force less weight, without the actuators' own shares
-    let t500 = mul_add(t111, P::splat(P::lane(t353, 0)), t473);
+    let t516 = mul_add(t111, P::splat(P::lane(t353, 0)), t490);
     // mass matrix of the legs
-    let t501 = t474 + t497;
+    let t517 = t491 + t513;
     // mass matrix M_p of the platform
-    let t502 = neg_mul_add(P::splat(t475), t498, t482);
-    let t503 = P::mul_add(platform_rotation[0][2], P::lane(t322, 1), t477);
-    let t504 = P::mul_add(platform_rotation[0][0], P::lane(t322, 2), t483);
-    let t505 = P::triple([c(0.0), t461, c(0.0)]);
-    let t506 = mul_add(P::splat(P::lane(t322, 2)), t499, t478);
-    let t507 = mul_add(P::splat(P::lane(t322, 0)), t472, t484);
-    let t508 = mul_add(P::splat(P::lane(t328, 0)), t498, t485);
-    let t509 = -(t467 + (P::lane(t400, 2) + (P::lane(t400, 1) + P::lane(t400, 0))));
-    mass_matrix_p[1][3] = t509;
-    mass_matrix_p[3][1] = t509;
+    let t518 = neg_mul_add(P::splat(t492), t514, t498);
+    let t519 = P::mul_add(platform_rotation[0][2], P::lane(t322, 1), t494);
+    let t520 = P::mul_add(platform_rotation[0][0], P::lane(t322, 2), t499);
+    let t521 = P::triple([c(0.0), t475, c(0.0)]);
+    let t522 = mul_add(P::splat(P::lane(t322, 2)), t515, t495);
+    let t523 = mul_add(P::splat(P::lane(t322, 0)), t489, t500);
+    let t524 = mul_add(P::splat(P::lane(t328, 0)), t514, t501);
+    let t525 = -(t481 + P::lane(t458, 0));
+    mass_matrix_p[1][3] = t525;
+    mass_matrix_p[3][1] = t525;
     // constant and copied elements
-    let t510 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t526 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
     // inertia less external wrench that the actuators must balance
-    let t511 = P::triple([P::lane(t454, 1), P::lane(t454, 2), P::lane(t454, 0)]);
+    let t527 = P::triple([P::lane(t467, 1), P::lane(t467, 2), P::lane(t467, 0)]);
     // mass matrix of the legs
-    let t512 = P::triple([P::lane(t412, 2), P::lane(t468, 2), P::lane(t442, 2)]);
-    let t513 = P::triple([c(0.0), c(0.0), P::lane(t442, 1) + P::lane(t442, 0)]);
-    let t514 = t468 + t505;
+    let t528 = P::triple([P::lane(t419, 2), P::lane(t483, 2), P::lane(t447, 2)]);
+    let t529 = P::triple([c(0.0), c(0.0), P::lane(t447, 1) + P::lane(t447, 0)]);
+    let t530 = t483 + t521;
     // mass matrix M_p of the platform
-    let t515 = P::splat(P::lane(t322, 1)) * t452;
-    let t516 = P::splat(P::lane(t328, 1)) * t476;
+    let t531 = P::splat(P::lane(t322, 1)) * t466;
+    let t532 = P::splat(P::lane(t328, 1)) * t493;
     // first moments by platform coordinate of the payload's inertia force
-    let t517 = P::triple([P::lane(t464, 2), P::lane(t464, 0), P::lane(t464, 1)]);
+    let t533 = P::triple([P::lane(t478, 2), P::lane(t478, 0), P::lane(t478, 1)]);
     // mass matrix M_p of the platform
-    let t518 = t479 - (P::lane(t424, 2) + (P::lane(t424, 1) + P::lane(t424, 0)));
-    mass_matrix_p[2][3] = t518;
-    mass_matrix_p[3][2] = t518;
-    let t519 = t467 - (P::lane(t423, 2) + (P::lane(t423, 1) + P::lane(t423, 0)));
-    mass_matrix_p[0][4] = t519;
-    mass_matrix_p[4][0] = t519;
-    let t520 = P::triple([t509, t495, t496]);
+    let t534 = t507 + P::lane(t485, 0);
+    mass_matrix_p[2][3] = t534;
+    mass_matrix_p[3][2] = t534;
+    let t535 = t481 + P::lane(t484, 1);
+    mass_matrix_p[0][4] = t535;
+    mass_matrix_p[4][0] = t535;
+    let t536 = P::lane(t485, 1) - t486;
+    mass_matrix_p[2][4] = t536;
+    mass_matrix_p[4][2] = t536;
+    let t537 = P::lane(t484, 2) - t507;
+    mass_matrix_p[0][5] = t537;
+    mass_matrix_p[5][0] = t537;
+    let t538 = P::triple([t525, P::lane(t458, 1), t512]);
     // inertia less external wrench that the actuators must balance
-    let t521 = neg_mul_add(t510, t511, mul_add(t454, t481, t480));
+    let t539 = neg_mul_add(t526, t527, mul_add(t467, t497, t496));
     // mass of payload and platform-side leg ends
-    let t522 = P::triple([t450, c(0.0), c(0.0)]);
+    let t540 = P::triple([t464, c(0.0), c(0.0)]);
     // inertia less external wrench that the actuators must balance
-    let t523 = t520 * P::splat(platform_acceleration[1]);
+    let t541 = t538 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t524 = P::triple([P::lane(t422, 2), P::lane(t474, 2), P::lane(t458, 2)]);
-    let t525 = P::triple([c(0.0), c(0.0), P::lane(t458, 1) + P::lane(t458, 0)]);
+    let t542 = P::triple([P::lane(t428, 2), P::lane(t491, 2), P::lane(t471, 2)]);
+    let t543 = P::triple([c(0.0), c(0.0), P::lane(t471, 1) + P::lane(t471, 0)]);
     // mass matrix M_p of the platform
-    let t526 = t422 + t522;
+    let t544 = t428 + t540;
     // constant and copied elements
-    let t527 =
+    let t545 =
         P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t528 =
+    let t546 =
         P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // inertia force less weight, without the actuators' own shares
-    let t529 = mul_add(t100, P::splat(P::lane(t353, 1)), t500);
+    let t547 = mul_add(t100, P::splat(P::lane(t353, 1)), t516);
     // inertia less external wrench that the actuators must balance
-    let t530 = t501 * P::splat(platform_acceleration[1]);
+    let t548 = t517 * P::splat(platform_acceleration[1]);
     // mass matrix of the legs
-    let t531 = -(P::lane(t428, 2) + (P::lane(t428, 1) + P::lane(t428, 0)));
-    mass_matrix_p[0][3] = t531;
-    mass_matrix_p[3][0] = t531;
+    let t549 = -P::lane(t484, 0);
+    mass_matrix_p[0][3] = t549;
+    mass_matrix_p[3][0] = t549;
+    let t550 = -P::lane(t485, 2);
+    mass_matrix_p[2][5] = t550;
+    mass_matrix_p[5][2] = t550;
     // mass matrix M_p of the platform
-    let t532 = -(t469 + (P::lane(t418, 2) + (P::lane(t418, 1) + P::lane(t418, 0))));
-    mass_matrix_p[2][4] = t532;
-    mass_matrix_p[4][2] = t532;
-    let t533 = -(t479 + (P::lane(t417, 2) + (P::lane(t417, 1) + P::lane(t417, 0))));
-    mass_matrix_p[0][5] = t533;
-    mass_matrix_p[5][0] = t533;
+    let t551 = neg_mul_add(t493, P::splat(t519), t518);
+    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t328, 2), t520);
+    let t553 = mul_add(P::splat(P::lane(t322, 1)), t515, t523);
+    let t554 = mul_add(P::splat(P::lane(t322, 2)), t489, t531);
+    let t555 = P::triple([c(0.0), c(0.0), t475]);
+    let t556 = mul_add(P::splat(P::lane(t322, 2)), t545, t524);
+    let t557 = mul_add(P::splat(P::lane(t322, 0)), t514, t532);
     // mass matrix of the legs
-    let t534 = -(P::lane(t441, 2) + (P::lane(t441, 1) + P::lane(t441, 0)));
-    mass_matrix_p[2][5] = t534;
-    mass_matrix_p[5][2] = t534;
+    let t558 = P::triple([t549, t535, t537]);
     // mass matrix M_p of the platform
-    let t535 = neg_mul_add(t476, P::splat(t503), t502);
-    let t536 = P::mul_add(platform_rotation[0][2], P::lane(t328, 2), t504);
-    let t537 = mul_add(P::splat(P::lane(t322, 1)), t499, t507);
-    let t538 = mul_add(P::splat(P::lane(t322, 2)), t472, t515);
-    let t539 = P::triple([c(0.0), c(0.0), t461]);
-    let t540 = mul_add(P::splat(P::lane(t322, 2)), t527, t508);
-    let t541 = mul_add(P::splat(P::lane(t322, 0)), t498, t516);
+    let t559 = P::triple([t534, t536, t550]);
     // mass matrix of the legs
-    let t542 = P::triple([t531, t519, t533]);
+    let t560 = t528 + t529 + t555;
     // mass matrix M_p of the platform
-    let t543 = P::triple([t518, t532, t534]);
-    // mass matrix of the legs
-    let t544 = t512 + t513 + t539;
-    // mass matrix M_p of the platform
-    let t545 = P::splat(P::lane(t322, 1)) * t476;
+    let t561 = P::splat(P::lane(t322, 1)) * t493;
     // rotation of the platform seen from the base
-    let t546 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    let t562 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t547 = P::triple([P::lane(t464, 1), P::lane(t464, 2), P::lane(t464, 0)]);
+    let t563 = P::triple([P::lane(t478, 1), P::lane(t478, 2), P::lane(t478, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t548 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
-    let t549 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
+    let t564 = P::triple([P::lane(t504, 0), P::lane(t505, 0), P::lane(t506, 0)]);
+    let t565 = P::triple([P::lane(t504, 1), P::lane(t505, 1), P::lane(t506, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t550 = neg_mul_add(t543, P::splat(platform_acceleration[2]), t521);
+    let t566 = neg_mul_add(t559, P::splat(platform_acceleration[2]), t539);
     // moment of the inertia force about the platform origin
-    let t551 = neg_mul_add(t546, t547, mul_add(t67, t517, t491));
+    let t567 = neg_mul_add(t562, t563, mul_add(t67, t533, t508));
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t552 = P::triple([P::lane(t492, 0), P::lane(t493, 0), P::lane(t494, 0)]);
-    let t553 = P::triple([P::lane(t492, 1), P::lane(t493, 1), P::lane(t494, 1)]);
+    let t568 = P::triple([P::lane(t509, 0), P::lane(t510, 0), P::lane(t511, 0)]);
+    let t569 = P::triple([P::lane(t509, 1), P::lane(t510, 1), P::lane(t511, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t554 = mul_add(t526, P::splat(platform_acceleration[0]), t530);
+    let t570 = mul_add(t544, P::splat(platform_acceleration[0]), t548);
     // mass matrix of the legs
-    let t555 = t524 + t525 + P::triple([c(0.0), c(0.0), t450]);
+    let t571 = t542 + t543 + P::triple([c(0.0), c(0.0), t464]);
     // constant and copied elements
-    let t556 =
+    let t572 =
         P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // inertia force less weight, without the actuators' own shares
-    let t557 = mul_add(t112, P::splat(P::lane(t353, 2)), t529);
+    let t573 = mul_add(t112, P::splat(P::lane(t353, 2)), t547);
     // mass matrix M_p of the platform
-    let t558 = neg_mul_add(t527, P::splat(t536), t535);
-    let t559 = neg_mul_add(t537, t556, neg_mul_add(t506, t528, t514));
-    let t560 = mul_add(P::splat(P::lane(t328, 2)), t499, t538);
-    let t561 = neg_mul_add(P::splat(platform_rotation[2][0]), t540, t544);
-    let t562 = mul_add(P::splat(P::lane(t322, 1)), t527, t541);
-    let t563 = mul_add(P::splat(P::lane(t322, 2)), t498, t545);
+    let t574 = neg_mul_add(t545, P::splat(t552), t551);
+    let t575 = neg_mul_add(t553, t572, neg_mul_add(t522, t546, t530));
+    let t576 = mul_add(P::splat(P::lane(t328, 2)), t515, t554);
+    let t577 = neg_mul_add(P::splat(platform_rotation[2][0]), t556, t560);
+    let t578 = mul_add(P::splat(P::lane(t322, 1)), t545, t557);
+    let t579 = mul_add(P::splat(P::lane(t322, 2)), t514, t561);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t564 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
-    let t565 = P::triple([P::lane(t492, 2), P::lane(t493, 2), P::lane(t494, 2)]);
+    let t580 = P::triple([P::lane(t504, 2), P::lane(t505, 2), P::lane(t506, 2)]);
+    let t581 = P::triple([P::lane(t509, 2), P::lane(t510, 2), P::lane(t511, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t566 = t550 - mul_add(t542, P::splat(platform_acceleration[0]), t523);
-    let t567 = mul_add(P::splat(platform_acceleration[2]), t555, t554);
+    let t582 = t566 - mul_add(t558, P::splat(platform_acceleration[0]), t541);
+    let t583 = mul_add(P::splat(platform_acceleration[2]), t571, t570);
     // constant and copied elements
-    let t568 =
+    let t584 =
         P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t569 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t585 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t570 = neg_mul_add(t560, t568, t559);
-    let t571 = neg_mul_add(P::splat(platform_rotation[2][1]), t562, t561);
-    let t572 = mul_add(P::splat(P::lane(t328, 2)), t527, t563);
+    let t586 = neg_mul_add(t576, t584, t575);
+    let t587 = neg_mul_add(P::splat(platform_rotation[2][1]), t578, t577);
+    let t588 = mul_add(P::splat(P::lane(t328, 2)), t545, t579);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t573 = mul_add(P::splat(P::lane(t551, 0)), t569, t548 + t549 + t564);
+    let t589 = mul_add(P::splat(P::lane(t567, 0)), t585, t564 + t565 + t580);
     // inertia less external wrench that the actuators must balance
-    let t574 = neg_mul_add(t558, P::splat(platform_acceleration[3]), t566);
+    let t590 = neg_mul_add(t574, P::splat(platform_acceleration[3]), t582);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t575 = neg_mul_add(t569, P::splat(P::lane(t557, 0)), t552 + t553 + t565);
+    let t591 = neg_mul_add(t585, P::splat(P::lane(t573, 0)), t568 + t569 + t581);
     // mass matrix of the legs
-    let t576 = P::triple([t531, t509, t518]);
+    let t592 = P::triple([t549, t525, t534]);
     // constant and copied elements
-    let t577 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t593 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // inertia less external wrench that the actuators must balance
-    let t578 = mul_add(P::splat(platform_acceleration[3]), t576, t567);
+    let t594 = mul_add(P::splat(platform_acceleration[3]), t592, t583);
     // mass matrix M_p of the platform
-    let t579 = neg_mul_add(P::splat(platform_rotation[2][2]), t572, t571);
+    let t595 = neg_mul_add(P::splat(platform_rotation[2][2]), t588, t587);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t580 = mul_add(P::splat(P::lane(t551, 1)), t577, t573);
+    let t596 = mul_add(P::splat(P::lane(t567, 1)), t593, t589);
     // inertia less external wrench that the actuators must balance
-    let t581 = neg_mul_add(t570, P::splat(platform_acceleration[4]), t574);
+    let t597 = neg_mul_add(t586, P::splat(platform_acceleration[4]), t590);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t582 = mul_sub(P::splat(P::lane(t557, 1)), t577, t575);
+    let t598 = mul_sub(P::splat(P::lane(t573, 1)), t593, t591);
     // mass matrix M_p of the platform
-    let t583 = P::triple([t519, t495, t532]);
-    let t584 = P::triple([t533, t496, t534]);
+    let t599 = P::triple([t535, P::lane(t458, 1), t536]);
+    let t600 = P::triple([t537, t512, t550]);
     // constant and copied elements
-    let t585 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t601 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
     // inertia less external wrench that the actuators must balance
-    let t586 = mul_sub(t584, P::splat(platform_acceleration[5]), t585);
+    let t602 = mul_sub(t600, P::splat(platform_acceleration[5]), t601);
     // constant and copied elements
-    let t587 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t603 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t588 = mul_add(P::splat(P::lane(t551, 2)), t587, t580);
-    let t589 = mul_add(P::splat(P::lane(t557, 2)), t587, t582);
+    let t604 = mul_add(P::splat(P::lane(t567, 2)), t603, t596);
+    let t605 = mul_add(P::splat(P::lane(t573, 2)), t603, t598);
     // inertia less external wrench that the actuators must balance
-    let t590 = mul_add(P::splat(platform_acceleration[4]), t583, t578) + t586;
-    let t591 = neg_mul_add(t579, P::splat(platform_acceleration[5]), t581) + t588;
-    let t592 = t589 + t590;
-    let t593 = -P::lane(t591, 0);
-    let t594 = -P::lane(t591, 1);
-    let t595 = -P::lane(t591, 2);
+    let t606 = mul_add(P::splat(platform_acceleration[4]), t599, t594) + t602;
+    let t607 = neg_mul_add(t595, P::splat(platform_acceleration[5]), t597) + t604;
+    let t608 = t605 + t606;
+    let t609 = -P::lane(t607, 0);
+    let t610 = -P::lane(t607, 1);
+    let t611 = -P::lane(t607, 2);
     // force along the actuator that balances the remaining wrench
     let axial_reaction = solve_general(
         &[
             [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t288, 0), P::lane(t288, 1), P::lane(t288, 2)],
             [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t272, 0), P::lane(t272, 1), P::lane(t272, 2)],
             [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t289, 0), P::lane(t289, 1), P::lane(t289, 2)],
-            [P::lane(t455, 0), P::lane(t455, 1), P::lane(t455, 2), P::lane(t438, 0), P::lane(t438, 1), P::lane(t438, 2)],
-            [P::lane(t456, 0), P::lane(t456, 1), P::lane(t456, 2), P::lane(t439, 0), P::lane(t439, 1), P::lane(t439, 2)],
-            [P::lane(t457, 0), P::lane(t457, 1), P::lane(t457, 2), P::lane(t440, 0), P::lane(t440, 1), P::lane(t440, 2)],
+            [P::lane(t468, 0), P::lane(t468, 1), P::lane(t468, 2), P::lane(t444, 0), P::lane(t444, 1), P::lane(t444, 2)],
+            [P::lane(t469, 0), P::lane(t469, 1), P::lane(t469, 2), P::lane(t445, 0), P::lane(t445, 1), P::lane(t445, 2)],
+            [P::lane(t470, 0), P::lane(t470, 1), P::lane(t470, 2), P::lane(t446, 0), P::lane(t446, 1), P::lane(t446, 2)],
         ],
-        &[P::lane(t592, 0), P::lane(t592, 1), P::lane(t592, 2), t593, t594, t595],
+        &[P::lane(t608, 0), P::lane(t608, 1), P::lane(t608, 2), t609, t610, t611],
     );
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t59, 0);
@@ -29669,79 +29684,83 @@ pub fn control_in_lanes<P: Triple>(
     jacobian_dp[0][1] = P::lane(t248, 0);
     jacobian_dp[0][2] = P::lane(t243, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t455, 0);
-    jacobian_dp[0][4] = P::lane(t456, 0);
-    jacobian_dp[0][5] = P::lane(t457, 0);
+    jacobian_dp[0][3] = P::lane(t468, 0);
+    jacobian_dp[0][4] = P::lane(t469, 0);
+    jacobian_dp[0][5] = P::lane(t470, 0);
     // leg 2: gradient of the actuator length
     jacobian_dp[1][0] = P::lane(t241, 1);
     jacobian_dp[1][1] = P::lane(t248, 1);
     jacobian_dp[1][2] = P::lane(t243, 1);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t455, 1);
-    jacobian_dp[1][4] = P::lane(t456, 1);
-    jacobian_dp[1][5] = P::lane(t457, 1);
+    jacobian_dp[1][3] = P::lane(t468, 1);
+    jacobian_dp[1][4] = P::lane(t469, 1);
+    jacobian_dp[1][5] = P::lane(t470, 1);
     // leg 3: gradient of the actuator length
     jacobian_dp[2][0] = P::lane(t241, 2);
     jacobian_dp[2][1] = P::lane(t248, 2);
     jacobian_dp[2][2] = P::lane(t243, 2);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t455, 2);
-    jacobian_dp[2][4] = P::lane(t456, 2);
-    jacobian_dp[2][5] = P::lane(t457, 2);
+    jacobian_dp[2][3] = P::lane(t468, 2);
+    jacobian_dp[2][4] = P::lane(t469, 2);
+    jacobian_dp[2][5] = P::lane(t470, 2);
     // leg 4: gradient of the actuator length
     jacobian_dp[3][0] = P::lane(t288, 0);
     jacobian_dp[3][1] = P::lane(t272, 0);
     jacobian_dp[3][2] = P::lane(t289, 0);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t438, 0);
-    jacobian_dp[3][4] = P::lane(t439, 0);
-    jacobian_dp[3][5] = P::lane(t440, 0);
+    jacobian_dp[3][3] = P::lane(t444, 0);
+    jacobian_dp[3][4] = P::lane(t445, 0);
+    jacobian_dp[3][5] = P::lane(t446, 0);
     // leg 5: gradient of the actuator length
     jacobian_dp[4][0] = P::lane(t288, 1);
     jacobian_dp[4][1] = P::lane(t272, 1);
     jacobian_dp[4][2] = P::lane(t289, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t438, 1);
-    jacobian_dp[4][4] = P::lane(t439, 1);
-    jacobian_dp[4][5] = P::lane(t440, 1);
+    jacobian_dp[4][3] = P::lane(t444, 1);
+    jacobian_dp[4][4] = P::lane(t445, 1);
+    jacobian_dp[4][5] = P::lane(t446, 1);
     // leg 6: gradient of the actuator length
     jacobian_dp[5][0] = P::lane(t288, 2);
     jacobian_dp[5][1] = P::lane(t272, 2);
     jacobian_dp[5][2] = P::lane(t289, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t438, 2);
-    jacobian_dp[5][4] = P::lane(t439, 2);
-    jacobian_dp[5][5] = P::lane(t440, 2);
+    jacobian_dp[5][3] = P::lane(t444, 2);
+    jacobian_dp[5][4] = P::lane(t445, 2);
+    jacobian_dp[5][5] = P::lane(t446, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t526, 0);
+    mass_matrix_p[0][0] = P::lane(t544, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t422, 1);
-    mass_matrix_p[0][2] = P::lane(t422, 2);
-    mass_matrix_p[1][0] = P::lane(t422, 1);
+    mass_matrix_p[0][1] = P::lane(t428, 1);
+    mass_matrix_p[0][2] = P::lane(t428, 2);
+    mass_matrix_p[1][0] = P::lane(t428, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t501, 1);
+    mass_matrix_p[1][1] = P::lane(t517, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t474, 2);
-    mass_matrix_p[2][0] = P::lane(t422, 2);
-    mass_matrix_p[2][1] = P::lane(t474, 2);
+    mass_matrix_p[1][2] = P::lane(t491, 2);
+    mass_matrix_p[1][4] = P::lane(t458, 1);
+    mass_matrix_p[2][0] = P::lane(t428, 2);
+    mass_matrix_p[2][1] = P::lane(t491, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t555, 2);
-    mass_matrix_p[3][3] = P::lane(t558, 0);
-    mass_matrix_p[3][4] = P::lane(t558, 1);
-    mass_matrix_p[3][5] = P::lane(t558, 2);
-    mass_matrix_p[4][3] = P::lane(t558, 1);
-    mass_matrix_p[4][4] = P::lane(t570, 1);
-    mass_matrix_p[4][5] = P::lane(t570, 2);
-    mass_matrix_p[5][3] = P::lane(t558, 2);
-    mass_matrix_p[5][4] = P::lane(t570, 2);
-    mass_matrix_p[5][5] = P::lane(t579, 2);
+    mass_matrix_p[2][2] = P::lane(t571, 2);
+    mass_matrix_p[3][3] = P::lane(t574, 0);
+    mass_matrix_p[3][4] = P::lane(t574, 1);
+    mass_matrix_p[3][5] = P::lane(t574, 2);
+    // mass matrix of the legs
+    mass_matrix_p[4][1] = P::lane(t458, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[4][3] = P::lane(t574, 1);
+    mass_matrix_p[4][4] = P::lane(t586, 1);
+    mass_matrix_p[4][5] = P::lane(t586, 2);
+    mass_matrix_p[5][3] = P::lane(t574, 2);
+    mass_matrix_p[5][4] = P::lane(t586, 2);
+    mass_matrix_p[5][5] = P::lane(t595, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t589, 0);
-    total_bias[1] = P::lane(t589, 1);
-    total_bias[2] = P::lane(t589, 2);
-    total_bias[3] = -P::lane(t588, 0);
-    total_bias[4] = -P::lane(t588, 1);
-    total_bias[5] = -P::lane(t588, 2);
+    total_bias[0] = P::lane(t605, 0);
+    total_bias[1] = P::lane(t605, 1);
+    total_bias[2] = P::lane(t605, 2);
+    total_bias[3] = -P::lane(t604, 0);
+    total_bias[4] = -P::lane(t604, 1);
+    total_bias[5] = -P::lane(t604, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];
@@ -29824,7 +29843,7 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     let t20 =
         P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
     let t21 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
     // legs 1, 2, 3: platform joint from the platform origin
@@ -29839,128 +29858,128 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // legs 1, 2, 3: platform joint from the platform origin
     let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
     let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
-    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
     let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
     // constant and copied elements
-    let t36 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+    let t35 =
+        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t36 = t18 * P::splat(P::lane(t14, 2));
     // legs 1, 2, 3: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
-    let t39 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
-    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
     // constant and copied elements
-    let t41 =
+    let t38 =
         P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t39 = mul_add(P::splat(P::lane(t17, 1)), t35, t33);
+    let t40 = mul_add(P::splat(P::lane(t17, 0)), t35, t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t36);
     // legs 1, 2, 3: platform joint from the base point
-    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
-    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t21;
+    let t43 = P::splat(P::lane(t22, 1)) + t32 - t20;
     // constant and copied elements
     let t44 =
         P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t45 = mul_add(t21, P::splat(P::lane(t17, 2)), t40);
-    // legs 1, 2, 3: platform joint from the base point
-    let t46 = P::splat(P::lane(t22, 2)) + t37 - t41;
-    // legs 4, 5, 6: platform joint from the base point
-    let t47 = P::splat(P::lane(t22, 1)) + t38 - t44;
-    // constant and copied elements
-    let t48 =
+    let t45 =
         P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
-    let t49 =
+    // legs 1, 2, 3: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 2)) + t37 - t38;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t47 = mul_add(P::splat(P::lane(t17, 2)), t35, t41);
+    // angular velocity of the base
+    let t48 = t1 * P::splat(base_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 1)) + t39 - t44;
+    let t50 = P::splat(P::lane(t22, 0)) + t40 - t45;
+    // angular velocity of the platform
+    let t51 = t1 * P::splat(platform_velocity[4]);
+    // constant and copied elements
+    let t52 =
         P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
     // angular velocity of the base
-    let t51 = t1 * P::splat(base_velocity[4]);
+    let t53 = mul_add(t2, P::splat(base_velocity[3]), t48);
     // angular velocity of the platform
-    let t52 = t1 * P::splat(platform_velocity[4]);
-    // angular velocity of the base
-    let t53 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    let t54 = mul_add(t2, P::splat(platform_velocity[3]), t51);
     // legs 4, 5, 6: platform joint from the base point
-    let t54 = P::splat(P::lane(t22, 2)) + t45 - t49;
-    // angular velocity of the platform
-    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    let t55 = P::splat(P::lane(t22, 2)) + t47 - t52;
     // velocity of the platform origin relative to the base
     let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // angular velocity of the base
     let t57 = mul_add(t5, P::splat(base_velocity[5]), t53);
-    // platform origin seen from the base
-    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
-    // legs 1, 2, 3: actuator length d
-    let t59 = sqrt(mul_add(t46, t46, mul_add(t42, t42, t43 * t43)));
-    // velocity of the platform origin relative to the base
-    let t60 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
     // angular velocity of the platform
-    let t61 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    let t58 = mul_add(t5, P::splat(platform_velocity[5]), t54);
+    // platform origin seen from the base
+    let t59 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 2, 3: actuator length d
+    let t60 = sqrt(mul_add(t46, t46, mul_add(t42, t42, t43 * t43)));
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
     // platform origin seen from the base
     let t62 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
     // rotation of the platform seen from the base
     let t63 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     // legs 4, 5, 6: actuator length d
-    let t64 = sqrt(mul_add(t54, t54, mul_add(t50, t50, t47 * t47)));
+    let t64 = sqrt(mul_add(t55, t55, mul_add(t50, t50, t49 * t49)));
     // velocity of the platform origin relative to the base
-    let t65 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t60);
+    let t65 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
     // angular acceleration of the base
     let t66 = t1 * P::splat(base_acceleration[4]);
-    // angular velocity of the base
-    let t67 = P::triple([P::lane(t57, 1), P::lane(t57, 2), P::lane(t57, 0)]);
-    let t68 = P::triple([P::lane(t57, 2), P::lane(t57, 0), P::lane(t57, 1)]);
     // angular velocity of the platform relative to the base
-    let t69 = t57 - t61;
-    // rotation of the platform seen from the base
-    let t70 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t67 = t57 - t58;
+    // angular velocity of the base
+    let t68 = P::triple([P::lane(t57, 1), P::lane(t57, 2), P::lane(t57, 0)]);
     // angular velocity of the platform
-    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t69 = P::triple([P::lane(t58, 1), P::lane(t58, 2), P::lane(t58, 0)]);
+    // angular velocity of the base
+    let t70 = P::triple([P::lane(t57, 2), P::lane(t57, 0), P::lane(t57, 1)]);
+    // rotation of the platform seen from the base
+    let t71 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
     // angular acceleration of the base
     let t72 = mul_add(t2, P::splat(base_acceleration[3]), t66);
-    // velocity of the platform origin relative to the base
-    let t73 = mul_add(t62, t68, neg_mul_add(t58, t67, t65));
     // acceleration per platform coordinate of points of the platform
-    let t74 = mul_sub(t61, t63, t14 * t71);
-    let t75 = mul_sub(t61, t70, t15 * t71);
+    let t73 = mul_sub(t58, t63, t14 * t69);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t62, t70, neg_mul_add(t59, t68, t65));
+    // acceleration per platform coordinate of points of the platform
+    let t75 = mul_sub(t58, t71, t15 * t69);
     // rotation of the platform seen from the base
     let t76 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
     // angular acceleration of the base
     let t77 = mul_add(t5, P::splat(base_acceleration[5]), t72);
     // acceleration per platform coordinate of points of the platform
-    let t78 = mul_sub(t61, t76, t17 * t71);
+    let t78 = mul_sub(t58, t76, t17 * t69);
     // angular velocity of the base
     let t79 = P::triple([P::lane(t57, 0), P::lane(t57, 2), P::lane(t57, 0)]);
     let t80 = P::triple([P::lane(t57, 1), P::lane(t57, 1), P::lane(t57, 2)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t81 = neg_mul_add(t31, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
-    // legs 1, 2, 3: reciprocal of the actuator length
-    let t82 = w(1.0) / t59;
     // angular velocity of the platform
-    let t83 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t81 = P::triple([P::lane(t58, 2), P::lane(t58, 0), P::lane(t58, 1)]);
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t60;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t83 = neg_mul_add(t31, P::splat(P::lane(t67, 2)), P::splat(P::lane(t74, 1)));
     // acceleration per platform coordinate of points of the platform
-    let t84 = P::triple([P::lane(t74, 2), P::lane(t74, 0), P::lane(t74, 1)]);
+    let t84 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
     // acceleration of the base origin less gravity
     let t85 = base_acceleration[0] - parameters.gravity[0];
     let t86 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
     // angular velocity of the base
     let t87 = P::triple([P::lane(t57, 2), P::lane(t57, 2), P::lane(t57, 0)]);
-    // legs 4, 5, 6: reciprocal of the actuator length
-    let t88 = w(1.0) / t64;
     // acceleration per base coordinate of points that move with the base
-    let t89 = t79 * t80;
+    let t88 = t79 * t80;
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t89 = w(1.0) / t64;
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t90 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    let t90 = neg_mul_add(t37, P::splat(P::lane(t67, 1)), P::splat(P::lane(t74, 0)));
     // acceleration per platform coordinate of points of the platform
     let t91 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t81);
+    let t92 = mul_add(t37, P::splat(P::lane(t67, 0)), t83);
     // angular velocity of the base
     let t93 = P::triple([P::lane(t57, 1), P::lane(t57, 0), P::lane(t57, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t94 = mul_sub(t71, t74, t83 * t84);
+    let t94 = mul_sub(t69, t73, t81 * t84);
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
     let t95 = t43 * t82;
     // acceleration of the base origin less gravity
@@ -29968,750 +29987,742 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // acceleration per base coordinate of points that move with the base
     let t97 = mul_add(t93, t93, t87 * t87);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t98 = mul_add(t33, P::splat(P::lane(t69, 2)), t90);
-    let t99 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    let t98 = mul_add(t32, P::splat(P::lane(t67, 2)), t90);
+    let t99 = neg_mul_add(t32, P::splat(P::lane(t67, 0)), P::splat(P::lane(t74, 2)));
     // angular acceleration of the base
     let t100 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t101 = mul_sub(t71, t75, t83 * t91);
+    let t101 = mul_sub(t69, t75, t81 * t91);
     let t102 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
     let t103 = t42 * t82;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t104 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
     // acceleration of the base origin less gravity
-    let t105 = mul_add(t5, P::splat(t96), mul_add(t2, P::splat(t85), t86));
+    let t104 = mul_add(t5, P::splat(t96), mul_add(t2, P::splat(t85), t86));
     // acceleration per base coordinate of points that move with the base
-    let t106 = mul_sub(t79, t80, t100);
+    let t105 = mul_sub(t79, t80, t100);
     // angular acceleration of the base
-    let t107 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    let t106 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t108 = P::triple([P::lane(t89, 2), P::lane(t89, 0), P::lane(t89, 1)]);
-    let t109 = t107 + t108;
+    let t107 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    let t108 = t106 + t107;
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t110 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    let t109 = neg_mul_add(t40, P::splat(P::lane(t67, 2)), P::splat(P::lane(t74, 1)));
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t111 = mul_add(t31, P::splat(P::lane(t69, 1)), t99);
+    let t110 = mul_add(t31, P::splat(P::lane(t67, 1)), t99);
     // legs 1, 2, 3: inertial rate of that gradient
-    let t112 = mul_add(t42, P::splat(P::lane(t57, 2)), t92);
+    let t111 = mul_add(t42, P::splat(P::lane(t57, 2)), t92);
     // acceleration per platform coordinate of points of the platform
-    let t113 = mul_sub(t71, t78, t83 * t102);
+    let t112 = mul_sub(t69, t78, t81 * t102);
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t114 = t46 * t82;
+    let t113 = t46 * t82;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t114 = t9 * P::splat(P::lane(t94, 1));
+    let t115 = t20 * P::splat(P::lane(t97, 1));
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t104);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t116 = t9 * P::splat(P::lane(t94, 1));
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t117 = t47 * t88;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t118 = t20 * P::splat(P::lane(t97, 1));
+    let t116 = neg_mul_add(t47, P::splat(P::lane(t67, 1)), P::splat(P::lane(t74, 0)));
     // legs 1, 2, 3: inertial rate of that gradient
-    let t119 = mul_add(t46, P::splat(P::lane(t57, 1)), t98);
+    let t117 = mul_add(t46, P::splat(P::lane(t57, 1)), t98);
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t120 = mul_add(t38, P::splat(P::lane(t69, 2)), t110);
-    let t121 = neg_mul_add(t38, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    let t118 = mul_add(t47, P::splat(P::lane(t67, 0)), t109);
     // legs 1, 2, 3: actuator velocity d'
-    let t122 = mul_add(t111, t114, mul_add(t98, t103, t92 * t95));
+    let t119 = mul_add(t110, t113, mul_add(t98, t103, t92 * t95));
     // legs 1, 2, 3: inertial rate of that gradient
-    let t123 = neg_mul_add(t46, P::splat(P::lane(t57, 0)), t112);
+    let t120 = neg_mul_add(t46, P::splat(P::lane(t57, 0)), t111);
     // legs 1, 2, 3: actuator acceleration d''
-    let t124 = t9 * P::splat(P::lane(t94, 0));
-    let t125 = mul_add(t12, P::splat(P::lane(t101, 1)), t116);
+    let t121 = t9 * P::splat(P::lane(t94, 0));
+    let t122 = mul_add(t12, P::splat(P::lane(t101, 1)), t114);
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t126 = t50 * t88;
+    let t123 = t49 * t89;
     // legs 1, 2, 3: actuator acceleration d''
-    let t127 = t20 * P::splat(P::lane(t106, 0));
-    let t128 = mul_add(t41, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t129 = neg_mul_add(t43, P::splat(P::lane(t57, 2)), t119);
-    let t130 = mul_add(t43, P::splat(P::lane(t57, 0)), t111);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t131 = mul_add(t12, P::splat(P::lane(t101, 0)), t124);
+    let t124 = t20 * P::splat(P::lane(t105, 0));
+    let t125 = mul_add(t38, P::splat(P::lane(t105, 1)), P::splat(P::lane(t104, 1)));
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t121);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t133 = mul_add(t50, P::splat(P::lane(t57, 2)), t115);
+    let t126 = mul_add(t39, P::splat(P::lane(t67, 2)), t116);
+    let t127 = neg_mul_add(t39, P::splat(P::lane(t67, 0)), P::splat(P::lane(t74, 2)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t128 = neg_mul_add(t43, P::splat(P::lane(t57, 2)), t117);
+    let t129 = mul_add(t43, P::splat(P::lane(t57, 0)), t110);
     // legs 1, 2, 3: actuator acceleration d''
-    let t134 = mul_add(t41, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
-    let t135 = mul_add(t13, P::splat(P::lane(t113, 1)), t125);
-    let t136 = t9 * P::splat(P::lane(t94, 2));
+    let t130 = mul_add(t12, P::splat(P::lane(t101, 0)), t121);
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t137 = t54 * t88;
+    let t131 = t50 * t89;
     // legs 1, 2, 3: actuator acceleration d''
-    let t138 = mul_sub(t36, P::splat(P::lane(t109, 1)), t118) + t128;
-    let t139 = t20 * P::splat(P::lane(t109, 2));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t140 = t18 * P::splat(P::lane(t94, 1));
-    let t141 = t44 * P::splat(P::lane(t97, 1));
+    let t132 = mul_add(t38, P::splat(P::lane(t108, 0)), P::splat(P::lane(t104, 0)));
+    let t133 = mul_add(t13, P::splat(P::lane(t112, 1)), t122);
+    let t134 = t9 * P::splat(P::lane(t94, 2));
+    let t135 = mul_sub(t21, P::splat(P::lane(t108, 1)), t115) + t125;
+    let t136 = t20 * P::splat(P::lane(t108, 2));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t137 = mul_add(t40, P::splat(P::lane(t67, 1)), t127);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t142 = mul_add(t54, P::splat(P::lane(t57, 1)), t120);
+    let t138 = mul_add(t50, P::splat(P::lane(t57, 2)), t118);
     // legs 1, 2, 3: inertial rate of that gradient
-    let t143 = neg_mul_add(t42, P::splat(P::lane(t57, 1)), t130);
+    let t139 = neg_mul_add(t42, P::splat(P::lane(t57, 1)), t129);
     // legs 1, 2, 3: actuator acceleration d''
-    let t144 = mul_add(t13, P::splat(P::lane(t113, 0)), t131);
-    let t145 = mul_add(t12, P::splat(P::lane(t101, 2)), t136);
+    let t140 = mul_add(t13, P::splat(P::lane(t112, 0)), t130);
+    let t141 = mul_add(t12, P::splat(P::lane(t101, 2)), t134);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t142 = t55 * t89;
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t143 = t82 * neg_mul_add(t95, t119, t120);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t144 = t132 - mul_sub(t21, P::splat(P::lane(t97, 0)), t124);
+    let t145 = t133 - t135;
+    let t146 = neg_mul_add(t38, P::splat(P::lane(t97, 2)), P::splat(P::lane(t104, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t147 = t18 * P::splat(P::lane(t94, 1));
+    let t148 = t44 * P::splat(P::lane(t97, 1));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t149 = mul_add(t55, P::splat(P::lane(t57, 1)), t126);
     // legs 4, 5, 6: actuator velocity d'
-    let t146 = mul_add(t132, t137, mul_add(t120, t126, t115 * t117));
+    let t150 = mul_add(t137, t142, mul_add(t126, t131, t118 * t123));
     // legs 1, 2, 3: inertial rate of that gradient
-    let t147 = t82 * neg_mul_add(t95, t122, t123);
+    let t151 = t82 * neg_mul_add(t103, t119, t128);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t148 = neg_mul_add(t54, P::splat(P::lane(t57, 0)), t133);
+    let t152 = neg_mul_add(t55, P::splat(P::lane(t57, 0)), t138);
     // legs 1, 2, 3: actuator acceleration d''
-    let t149 = t134 - mul_sub(t36, P::splat(P::lane(t97, 0)), t127);
-    let t150 = t135 - t138;
-    let t151 = neg_mul_add(t41, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    let t153 = t140 - t144;
+    let t154 = mul_add(t13, P::splat(P::lane(t112, 2)), t141);
     // legs 4, 5, 6: actuator acceleration d''
-    let t152 = t18 * P::splat(P::lane(t94, 0));
-    let t153 = mul_add(t19, P::splat(P::lane(t101, 1)), t140);
+    let t155 = t18 * P::splat(P::lane(t94, 0));
+    let t156 = mul_add(t19, P::splat(P::lane(t101, 1)), t147);
     // second moment of payload and platform-side leg ends
-    let t154 = t19 * t19;
-    let t155 = t18 * t19;
-    let t156 = t19 * t21;
+    let t157 = t19 * t19;
+    let t158 = t18 * t19;
+    let t159 = t19 * t35;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t160 = mul_add(t21, P::splat(P::lane(t105, 2)), t136) + t146;
     // legs 4, 5, 6: actuator acceleration d''
-    let t157 = t44 * P::splat(P::lane(t106, 0));
-    let t158 = mul_add(t49, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
+    let t161 = t44 * P::splat(P::lane(t105, 0));
+    let t162 = mul_add(t52, P::splat(P::lane(t105, 1)), P::splat(P::lane(t104, 1)));
     // constant and copied elements
-    let t159 =
+    let t163 =
         P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t160 = t82 * neg_mul_add(t103, t122, t129);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t161 = neg_mul_add(t47, P::splat(P::lane(t57, 2)), t142);
-    let t162 = mul_add(t47, P::splat(P::lane(t57, 0)), t132);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t163 = t144 - t149;
-    let t164 = mul_add(t13, P::splat(P::lane(t113, 2)), t145);
+    let t164 = neg_mul_add(t49, P::splat(P::lane(t57, 2)), t149);
+    let t165 = mul_add(t49, P::splat(P::lane(t57, 0)), t137);
     // legs 4, 5, 6: actuator acceleration d''
-    let t165 = mul_add(t19, P::splat(P::lane(t101, 0)), t152);
+    let t166 = mul_add(t19, P::splat(P::lane(t101, 0)), t155);
     // second moment of payload and platform-side leg ends
-    let t166 = t12 * t12;
-    let t167 = t9 * t12;
-    let t168 = t12 * t13;
+    let t167 = t12 * t12;
+    let t168 = t9 * t12;
+    let t169 = t12 * t13;
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t170 = t82 * neg_mul_add(t113, t119, t139);
     // legs 1, 2, 3: actuator acceleration d''
-    let t169 = mul_add(t36, P::splat(P::lane(t106, 2)), t139) + t151;
+    let t171 = t154 - t160;
     // legs 4, 5, 6: actuator acceleration d''
-    let t170 = mul_add(t49, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
-    let t171 = mul_add(t21, P::splat(P::lane(t113, 1)), t153);
-    let t172 = t18 * P::splat(P::lane(t94, 2));
-    let t173 = mul_sub(t48, P::splat(P::lane(t109, 1)), t141) + t158;
-    let t174 = t44 * P::splat(P::lane(t109, 2));
+    let t172 = mul_add(t52, P::splat(P::lane(t108, 0)), P::splat(P::lane(t104, 0)));
+    let t173 = mul_add(t35, P::splat(P::lane(t112, 1)), t156);
+    let t174 = t18 * P::splat(P::lane(t94, 2));
+    let t175 = mul_sub(t45, P::splat(P::lane(t108, 1)), t148) + t162;
+    let t176 = t44 * P::splat(P::lane(t108, 2));
     // constant and copied elements
-    let t175 =
+    let t177 =
         P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
     // second moment of payload and platform-side leg ends
-    let t176 = mul_add(t166, t175, t154 * t159);
-    let t177 = mul_add(t167, t175, t155 * t159);
-    let t178 = mul_add(t168, t175, t156 * t159);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t179 = t82 * neg_mul_add(t114, t122, t143);
+    let t178 = mul_add(t167, t177, t157 * t163);
+    let t179 = mul_add(t168, t177, t158 * t163);
+    let t180 = mul_add(t169, t177, t159 * t163);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t180 = neg_mul_add(t50, P::splat(P::lane(t57, 1)), t162);
+    let t181 = neg_mul_add(t50, P::splat(P::lane(t57, 1)), t165);
     // legs 1, 2, 3: actuator acceleration d''
-    let t181 = t164 - t169;
+    let t182 = mul_add(t113, t171, mul_add(t103, t153, t95 * t145));
+    let t183 = mul_add(t170, t170, mul_add(t151, t151, t143 * t143));
     // legs 4, 5, 6: actuator acceleration d''
-    let t182 = mul_add(t21, P::splat(P::lane(t113, 0)), t165);
-    let t183 = mul_add(t19, P::splat(P::lane(t101, 2)), t172);
+    let t184 = mul_add(t35, P::splat(P::lane(t112, 0)), t166);
+    let t185 = mul_add(t19, P::splat(P::lane(t101, 2)), t174);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t184 = t88 * neg_mul_add(t117, t146, t148);
+    let t186 = t89 * neg_mul_add(t123, t150, t152);
     // legs 4, 5, 6: actuator acceleration d''
-    let t185 = t170 - mul_sub(t48, P::splat(P::lane(t97, 0)), t157);
-    let t186 = t171 - t173;
-    let t187 = neg_mul_add(t49, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    let t187 = t172 - mul_sub(t45, P::splat(P::lane(t97, 0)), t161);
+    let t188 = t173 - t175;
+    let t189 = neg_mul_add(t52, P::splat(P::lane(t97, 2)), P::splat(P::lane(t104, 2)));
     // second moment of payload and platform-side leg ends
-    let t188 = t18 * t18;
-    let t189 = t18 * t21;
+    let t190 = t18 * t18;
+    let t191 = t18 * t35;
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t192 = t89 * neg_mul_add(t131, t150, t164);
     // legs 1, 2, 3: actuator acceleration d''
-    let t190 = mul_add(t114, t181, mul_add(t103, t163, t95 * t150));
-    let t191 = mul_add(t179, t179, mul_add(t160, t160, t147 * t147));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t192 = t88 * neg_mul_add(t126, t146, t161);
+    let t193 = mul_add(t60, t183, t182);
     // legs 4, 5, 6: actuator acceleration d''
-    let t193 = t182 - t185;
-    let t194 = mul_add(t21, P::splat(P::lane(t113, 2)), t183);
+    let t194 = t184 - t187;
+    let t195 = mul_add(t35, P::splat(P::lane(t112, 2)), t185);
     // second moment of payload and platform-side leg ends
-    let t195 = t9 * t9;
-    let t196 = t9 * t13;
+    let t196 = t9 * t9;
+    let t197 = t9 * t13;
     // legs 4, 5, 6: actuator acceleration d''
-    let t197 = mul_add(t48, P::splat(P::lane(t106, 2)), t174) + t187;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t198 = mul_add(t59, t191, t190);
+    let t198 = mul_add(t45, P::splat(P::lane(t105, 2)), t176) + t189;
     // second moment of payload and platform-side leg ends
-    let t199 = mul_add(t175, t195, t159 * t188);
-    let t200 = mul_add(t175, t196, t159 * t189);
-    let t201 = P::triple([P::lane(t176, 0), P::lane(t177, 0), P::lane(t178, 0)]);
-    let t202 = P::triple([P::lane(t176, 1), P::lane(t177, 1), P::lane(t178, 1)]);
+    let t199 = mul_add(t177, t196, t163 * t190);
+    let t200 = mul_add(t177, t197, t163 * t191);
+    let t201 = P::triple([P::lane(t178, 0), P::lane(t179, 0), P::lane(t180, 0)]);
+    let t202 = P::triple([P::lane(t178, 1), P::lane(t179, 1), P::lane(t180, 1)]);
     // legs 4, 5, 6: inertial rate of that gradient
-    let t203 = t88 * neg_mul_add(t137, t146, t180);
+    let t203 = t89 * neg_mul_add(t142, t150, t181);
     // legs 4, 5, 6: actuator acceleration d''
-    let t204 = t194 - t197;
+    let t204 = t195 - t198;
     // constant and copied elements
     let t205 =
         P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
     let t206 =
         P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t207 = t119 * w(2.0);
     // legs 4, 5, 6: first moment of the lower part about the base joint
-    let t207 = t205 * t206;
+    let t208 = t205 * t206;
     // second moment of payload and platform-side leg ends
-    let t208 = t21 * t21;
-    let t209 = P::triple([P::lane(t176, 2), P::lane(t177, 2), P::lane(t178, 2)]);
+    let t209 = t35 * t35;
+    let t210 = P::triple([P::lane(t178, 2), P::lane(t179, 2), P::lane(t180, 2)]);
     // legs 4, 5, 6: actuator acceleration d''
-    let t210 = mul_add(t137, t204, mul_add(t126, t193, t117 * t186));
-    let t211 = mul_add(t203, t203, mul_add(t192, t192, t184 * t184));
+    let t211 = mul_add(t142, t204, mul_add(t131, t194, t123 * t188));
+    let t212 = mul_add(t203, t203, mul_add(t192, t192, t186 * t186));
     // constant and copied elements
-    let t212 =
-        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
     let t213 =
-        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
     let t214 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
+    let t215 =
         P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
     // second moment of payload and platform-side leg ends
-    let t215 = t201 + t202 + t209;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t216 = t122 * w(2.0);
+    let t216 = t201 + t202 + t210;
     // legs 1, 2, 3: first moment of the lower part about the base joint
-    let t217 = t212 * t213;
+    let t217 = t213 * t214;
     // second moment of payload and platform-side leg ends
     let t218 = t13 * t13;
     // constant and copied elements
     let t219 =
         P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
     // legs 4, 5, 6: actuator acceleration d''
-    let t220 = mul_add(t64, t211, t210);
+    let t220 = mul_add(t64, t212, t211);
     // constant and copied elements
     let t221 =
         P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
     let t222 =
         P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
     // second moment of payload and platform-side leg ends
-    let t223 = mul_add(t175, t218, t159 * t208);
+    let t223 = mul_add(t177, t218, t163 * t209);
     let t224 = P::lane(t200, 1) + P::lane(t200, 0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t225 = t82 * neg_mul_add(t143, t207, neg_mul_add(t95, t193, t145));
     // legs 4, 5, 6: first moment of the upper part about the platform joint
-    let t225 = t159 * t221;
+    let t226 = t163 * t221;
     // constant and copied elements
-    let t226 =
+    let t227 =
         P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
-    // legs 1, 2, 3: first moment of the upper part about the platform joint
-    let t227 = t175 * t226;
-    // constant and copied elements
     let t228 =
         P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
     // second moment of payload and platform-side leg ends
-    let t229 = P::triple([P::lane(t215, 1), P::lane(t199, 2), P::lane(t200, 2)]);
+    let t229 = P::triple([P::lane(t216, 1), P::lane(t199, 2), P::lane(t200, 2)]);
     let t230 = P::triple([c(0.0), P::lane(t199, 1) + P::lane(t199, 0), t224]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t231 = t82 * neg_mul_add(t160, t216, neg_mul_add(t103, t198, t163));
-    let t232 = t82 * neg_mul_add(t147, t216, neg_mul_add(t95, t198, t150));
-    let t233 = t82 * neg_mul_add(t179, t216, neg_mul_add(t114, t198, t181));
+    let t231 = t82 * neg_mul_add(t151, t207, neg_mul_add(t103, t193, t153));
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t232 = t177 * t227;
     // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
-    let t234 = mul_add(t221, t225, mul_add(t206, t207, t214) + t222);
+    let t233 = mul_add(t221, t226, mul_add(t206, t208, t215) + t222);
     // second moment of payload and platform-side leg ends
-    let t235 = t229 + t230;
+    let t234 = t229 + t230;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t235 = t82 * t217;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t236 = t146 * w(2.0);
-    let t237 = t88 * t225;
+    let t236 = t150 * w(2.0);
+    let t237 = t89 * t226;
     // legs 4, 5, 6: weight of the square in the leg's mass matrix
-    let t238 = t88 * t88;
+    let t238 = t89 * t89;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t239 = t82 * t217;
-    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
-    let t240 = mul_add(t226, t227, mul_add(t213, t217, t219) + t228);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t241 = t82 * t227;
-    // legs 1, 2, 3: weight of the square in the leg's mass matrix
-    let t242 = t82 * t82;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t243 = mul_add(t114, t164, mul_add(t103, t144, t95 * t135));
+    let t239 = mul_add(t113, t154, mul_add(t103, t140, t95 * t133));
+    let t240 = t82 * neg_mul_add(t170, t207, neg_mul_add(t113, t193, t171));
     // constant and copied elements
-    let t244 =
+    let t241 =
         P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    // legs 4, 5, 6: weight of the square in the leg's mass matrix
-    let t245 = t234 * t238;
-    // first moment of payload and platform-side leg ends
-    let t246 = mul_add(t12, t175, t19 * t159);
-    let t247 = mul_add(t9, t175, t18 * t159);
-    let t248 = mul_add(t13, t175, t21 * t159);
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t242 = mul_add(t227, t232, mul_add(t214, t217, t219) + t228);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t249 = t239 * mul_add(t114, t169, mul_add(t103, t149, t95 * t138));
+    let t243 = t82 * t232;
+    let t244 = mul_add(t113, t160, mul_add(t103, t144, t95 * t135)) * t235;
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t250 = t59 - t244;
-    // second moment of payload and platform-side leg ends
-    let t251 = P::triple([P::lane(t215, 2), P::lane(t235, 2), P::lane(t223, 2)]);
-    let t252 = P::triple([c(0.0), c(0.0), P::lane(t223, 1) + P::lane(t223, 0)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t253 = t88 * neg_mul_add(t184, t236, neg_mul_add(t117, t220, t186));
+    let t245 = t60 - t241;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t246 = t82 * t82;
     // constant and copied elements
-    let t254 =
+    let t247 =
         P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t255 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
-    // legs 1, 2, 3: weight of the square in the leg's mass matrix
-    let t256 = t240 * t242;
+    let t248 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
     // legs 4, 5, 6: weight of the square in the leg's mass matrix
-    let t257 = mul_add(w(2.0), neg_mul_add(t234, t238, t237), t245);
-    // legs 4, 5, 6: leg inertia alike in all directions at the platform joint
-    let t258 = neg_mul_add(w(2.0), t237, t245);
+    let t249 = t233 * t238;
+    // first moment of payload and platform-side leg ends
+    let t250 = mul_add(t12, t177, t19 * t163);
+    let t251 = mul_add(t9, t177, t18 * t163);
+    let t252 = mul_add(t13, t177, t35 * t163);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t259 = mul_add(t114, t233, mul_add(t103, t231, t95 * t232));
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t260 = neg_mul_add(t144, t241, mul_sub(t149, t239, t227 * t231));
-    let t261 = neg_mul_add(t135, t241, mul_sub(t138, t239, t227 * t232));
-    let t262 = neg_mul_add(t164, t241, mul_sub(t169, t239, t227 * t233));
+    let t253 = mul_add(t113, t240, mul_add(t103, t231, t95 * t225));
     // second moment of payload and platform-side leg ends
-    let t263 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t254 = P::triple([P::lane(t216, 2), P::lane(t234, 2), P::lane(t223, 2)]);
+    let t255 = P::triple([c(0.0), c(0.0), P::lane(t223, 1) + P::lane(t223, 0)]);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t264 = t82 * t240;
+    let t256 = t82 * t242;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t265 = t88 * neg_mul_add(t192, t236, neg_mul_add(t126, t220, t193));
-    let t266 = t88 * t207;
+    let t257 = t89 * neg_mul_add(t186, t236, neg_mul_add(t123, t220, t188));
     // legs 1, 2, 3: weight of the square in the leg's mass matrix
-    let t267 = mul_add(w(2.0), neg_mul_add(t240, t242, t241), t256);
-    // legs 1, 2, 3: leg inertia alike in all directions at the platform joint
-    let t268 = neg_mul_add(w(2.0), t241, t256);
+    let t258 = t242 * t246;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t259 = mul_add(w(2.0), neg_mul_add(t233, t238, t237), t249);
+    // legs 4, 5, 6: leg inertia alike in all directions at the platform joint
+    let t260 = neg_mul_add(w(2.0), t237, t249);
     // constant and copied elements
-    let t269 =
+    let t261 =
         P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    // mass matrix in base coordinates
-    let t270 = t117 * t257;
-    let t271 = t137 * t257;
     // second moment of payload and platform-side leg ends
-    let t272 = t263 + parameters.payload_inertia[2][2];
-    // constant and copied elements
-    let t273 =
-        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t274 =
-        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t262 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t275 = neg_mul_add(t259, t264, mul_sub(t241, t243, t249));
+    let t263 = neg_mul_add(t253, t256, mul_sub(t239, t243, t244));
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t276 = mul_add(t137, t194, mul_add(t126, t182, t117 * t171));
+    let t264 = t89 * neg_mul_add(t192, t236, neg_mul_add(t131, t220, t194));
+    let t265 = t89 * t208;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t266 = mul_add(w(2.0), neg_mul_add(t242, t246, t243), t258);
+    // legs 1, 2, 3: leg inertia alike in all directions at the platform joint
+    let t267 = neg_mul_add(w(2.0), t243, t258);
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t277 = mul_add(t231, t264, t260);
-    let t278 = mul_add(t232, t264, t261);
-    let t279 = mul_add(t233, t264, t262);
+    let t268 = neg_mul_add(t140, t243, mul_sub(t144, t235, t231 * t232));
+    let t269 = neg_mul_add(t133, t243, mul_sub(t135, t235, t225 * t232));
+    let t270 = neg_mul_add(t154, t243, mul_sub(t160, t235, t232 * t240));
+    // mass matrix in base coordinates
+    let t271 = t123 * t259;
+    let t272 = t142 * t259;
+    // second moment of payload and platform-side leg ends
+    let t273 = t262 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t280 =
+    let t274 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
+    let t275 =
+        P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t276 = mul_add(t142, t195, mul_add(t131, t184, t123 * t173));
+    // constant and copied elements
+    let t277 =
         P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    // mass of payload and platform-side leg ends
-    let t281 = t159 + t175;
-    // first moment of payload and platform-side leg ends
-    let t282 = P::triple([P::lane(t246, 0), P::lane(t247, 0), P::lane(t248, 0)]);
-    let t283 = P::triple([P::lane(t246, 1), P::lane(t247, 1), P::lane(t248, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t284 = mul_add(t137, t197, mul_add(t126, t185, t117 * t173)) * t266;
-    let t285 = t88 * neg_mul_add(t203, t236, neg_mul_add(t137, t220, t204));
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t286 = t64 - t280;
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t287 = mul_sub(t38, t137, t45 * t117);
-    let t288 = mul_sub(t45, t126, t39 * t137);
-    let t289 = mul_sub(t39, t117, t38 * t126);
-    // second moment of payload and platform-side leg ends
-    let t290 = P::triple([P::lane(t215, 0), P::lane(t235, 1), P::lane(t251 + t252, 2)]);
-    // mass matrix in base coordinates
-    let t291 = t95 * t267;
-    let t292 = t114 * t267;
-    let t293 = mul_add(t9, t268, t18 * t258);
-    // second moment of payload and platform-side leg ends
-    let t294 = P::triple([P::lane(t215, 1), P::lane(t235, 2), P::lane(t215, 2)]);
-    // constant and copied elements
-    let t295 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
     // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t296 = mul_sub(t33, t114, t37 * t95);
-    let t297 = mul_sub(t37, t103, t31 * t114);
-    let t298 = mul_sub(t31, t95, t33 * t103);
-    // constant and copied elements
-    let t299 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    let t278 = mul_sub(t32, t113, t37 * t95);
+    let t279 = mul_sub(t37, t103, t31 * t113);
+    let t280 = mul_sub(t31, t95, t32 * t103);
+    // mass of payload and platform-side leg ends
+    let t281 = t163 + t177;
     // first moment of payload and platform-side leg ends
-    let t300 = P::triple([P::lane(t246, 2), P::lane(t247, 2), P::lane(t248, 2)]);
+    let t282 = P::triple([P::lane(t250, 0), P::lane(t251, 0), P::lane(t252, 0)]);
+    let t283 = P::triple([P::lane(t250, 1), P::lane(t251, 1), P::lane(t252, 1)]);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t301 = mul_add(t137, t285, mul_add(t126, t265, t117 * t253));
+    let t284 = mul_add(t142, t198, mul_add(t131, t187, t123 * t175)) * t265;
+    let t285 = t89 * neg_mul_add(t203, t236, neg_mul_add(t142, t220, t204));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t286 = t64 - t277;
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t287 = mul_sub(t39, t142, t47 * t123);
+    let t288 = mul_sub(t47, t131, t40 * t142);
+    let t289 = mul_sub(t40, t123, t39 * t131);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t302 = neg_mul_add(t122, t269, neg_mul_add(t250, t254, t255)) - t275;
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t303 = t33 * t279;
-    let t304 = t37 * t277;
-    let t305 = t31 * t278;
+    let t290 = neg_mul_add(t119, t261, neg_mul_add(t245, t247, t248)) - t263;
+    // second moment of payload and platform-side leg ends
+    let t291 = P::triple([P::lane(t216, 0), P::lane(t234, 1), P::lane(t254 + t255, 2)]);
     // mass matrix in base coordinates
-    let t306 = t258 + t268;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t307 = t88 * t234;
-    // mass matrix in base coordinates
-    let t308 = mul_add(t103, t103 * t267, t126 * (t126 * t257));
-    let t309 = t257 * t287;
-    let t310 = mul_add(t12, t268, t19 * t258);
-    let t311 = t257 * t288;
-    let t312 = t257 * t289;
-    let t313 = mul_add(t95, t291, t117 * t270);
-    let t314 = mul_add(t114, t292, t137 * t271);
+    let t292 = t95 * t266;
+    let t293 = t113 * t266;
+    let t294 = mul_add(t9, t267, t18 * t260);
+    // second moment of payload and platform-side leg ends
+    let t295 = P::triple([P::lane(t216, 1), P::lane(t234, 2), P::lane(t216, 2)]);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t296 = mul_add(t231, t256, t268);
+    let t297 = mul_add(t225, t256, t269);
+    let t298 = mul_add(t240, t256, t270);
     // constant and copied elements
-    let t315 =
+    let t299 =
+        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+    let t300 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // first moment of payload and platform-side leg ends
+    let t301 = P::triple([P::lane(t250, 2), P::lane(t251, 2), P::lane(t252, 2)]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t302 = mul_add(t142, t285, mul_add(t131, t264, t123 * t257));
+    // mass matrix in base coordinates
+    let t303 = t260 + t267;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t304 = t89 * t233;
+    // mass matrix in base coordinates
+    let t305 = mul_add(t103, t103 * t266, t131 * (t131 * t259));
+    let t306 = t259 * t287;
+    let t307 = mul_add(t12, t267, t19 * t260);
+    let t308 = t259 * t288;
+    let t309 = t259 * t289;
+    let t310 = mul_add(t95, t292, t123 * t271);
+    let t311 = mul_add(t113, t293, t142 * t272);
+    // constant and copied elements
+    let t312 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t316 =
+    let t313 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
     // mass matrix in base coordinates
-    let t317 = mul_add(t103, t291, t126 * t270);
-    let t318 = mul_add(t103, t292, t126 * t271);
-    let t319 = mul_add(t95, t292, t117 * t271);
+    let t314 = mul_add(t103, t292, t131 * t271);
+    let t315 = mul_add(t103, t293, t131 * t272);
+    let t316 = mul_add(t95, t293, t123 * t272);
     // second moment of payload and platform-side leg ends
-    let t320 = mul_add(P::splat(t272), w(0.5), t290) - t316;
+    let t317 = mul_add(P::splat(t273), w(0.5), t291) - t313;
     // constant and copied elements
-    let t321 =
+    let t318 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    let t322 =
+    let t319 =
         P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
     // first moment of payload and platform-side leg ends
-    let t323 = mul_add(P::splat(parameters.payload_mass), t315, t282 + t283 + t300);
+    let t320 = mul_add(P::splat(parameters.payload_mass), t312, t282 + t283 + t301);
     // second moment of payload and platform-side leg ends
-    let t324 = mul_add(t273 * t274, P::splat(parameters.payload_mass), t294) - t321;
+    let t321 = mul_add(t274 * t275, P::splat(parameters.payload_mass), t295) - t318;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t325 = neg_mul_add(t301, t307, mul_sub(t237, t276, t284));
+    let t322 = neg_mul_add(t302, t304, mul_sub(t237, t276, t284));
     // mass matrix in base coordinates
-    let t326 = t267 * t296;
-    let t327 = t267 * t297;
-    let t328 = t267 * t298;
-    let t329 = mul_add(t167, t268, t155 * t258);
-    let t330 = mul_add(t13, t268, t21 * t258);
+    let t323 = t266 * t278;
+    let t324 = t266 * t279;
+    let t325 = t266 * t280;
+    let t326 = mul_add(t168, t267, t158 * t260);
+    let t327 = mul_add(t13, t267, t35 * t260);
     // second moment of payload and platform-side leg ends
-    let t331 = mul_add(P::splat(parameters.payload_mass), t315 * t315, t320);
+    let t328 = mul_add(P::splat(parameters.payload_mass), t312 * t312, t317);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t332 = neg_mul_add(t182, t237, mul_sub(t185, t266, t225 * t265));
-    let t333 = neg_mul_add(t171, t237, mul_sub(t173, t266, t225 * t253));
-    let t334 = neg_mul_add(t194, t237, mul_sub(t197, t266, t225 * t285));
+    let t329 = neg_mul_add(t184, t237, mul_sub(t187, t265, t226 * t264));
+    let t330 = neg_mul_add(t173, t237, mul_sub(t175, t265, t226 * t257));
+    let t331 = neg_mul_add(t195, t237, mul_sub(t198, t265, t226 * t285));
     // wrench left at the trial acceleration
-    let t335 = mul_add(t37, t278, mul_sub(t296, t302, t303));
-    let t336 = mul_add(t31, t279, mul_sub(t297, t302, t304));
-    let t337 = mul_add(t33, t277, mul_sub(t298, t302, t305));
+    let t332 = neg_mul_add(t32, t298, mul_add(t37, t297, t278 * t290));
+    let t333 = neg_mul_add(t37, t296, mul_add(t31, t298, t279 * t290));
+    let t334 = neg_mul_add(t31, t297, mul_add(t32, t296, t280 * t290));
     // mass of payload and platform-side leg ends
-    let t338 = P::lane(t281, 2) + (P::lane(t281, 1) + P::lane(t281, 0));
+    let t335 = P::lane(t281, 2) + (P::lane(t281, 1) + P::lane(t281, 0));
     // mass matrix in base coordinates
-    let t339 = mul_add(t95, t326, t117 * t309);
-    let t340 = mul_add(t95, t327, t117 * t311);
-    let t341 = mul_add(t95, t328, t117 * t312);
-    let t342 = mul_add(t166, t268, t154 * t258);
+    let t336 = mul_add(t95, t323, t123 * t306);
+    let t337 = mul_add(t95, t324, t123 * t308);
+    let t338 = mul_add(t95, t325, t123 * t309);
+    let t339 = mul_add(t167, t267, t157 * t260);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t343 = neg_mul_add(t146, t322, neg_mul_add(t286, t295, t299)) - t325;
+    let t340 = neg_mul_add(t150, t319, neg_mul_add(t286, t299, t300)) - t322;
     // mass matrix in base coordinates
-    let t344 = mul_add(t195, t268, t188 * t258);
+    let t341 = mul_add(t196, t267, t190 * t260);
     // first moments by platform coordinate of the payload's inertia force
-    let t345 = t94 * P::splat(P::lane(t324, 0));
+    let t342 = t94 * P::splat(P::lane(t321, 0));
     // inertia less external wrench that the actuators must balance
-    let t346 = t1 * P::splat(external_wrench[1]);
+    let t343 = t1 * P::splat(external_wrench[1]);
     // mass matrix in base coordinates
-    let t347 = P::triple([P::lane(t308, 0), P::lane(t313, 0), P::lane(t314, 0)]);
-    let t348 = P::triple([P::lane(t308, 1), P::lane(t313, 1), P::lane(t314, 1)]);
-    let t349 = P::lane(t293, 2) + (P::lane(t293, 1) + P::lane(t293, 0));
+    let t344 = P::triple([P::lane(t305, 0), P::lane(t310, 0), P::lane(t311, 0)]);
+    let t345 = P::triple([P::lane(t305, 1), P::lane(t310, 1), P::lane(t311, 1)]);
+    let t346 = P::lane(t294, 2) + (P::lane(t294, 1) + P::lane(t294, 0));
     // mass of payload and platform-side leg ends
-    let t350 = parameters.payload_mass + t338;
+    let t347 = parameters.payload_mass + t335;
     // mass matrix in base coordinates
-    let t351 = mul_add(t103, t326, t126 * t309);
-    let t352 = mul_add(t103, t327, t126 * t311);
-    let t353 = mul_add(t103, t328, t126 * t312);
-    let t354 = P::triple([P::lane(t319, 0), P::lane(t318, 0), P::lane(t317, 0)]);
-    let t355 = P::triple([P::lane(t319, 1), P::lane(t318, 1), P::lane(t317, 1)]);
+    let t348 = mul_add(t103, t323, t131 * t306);
+    let t349 = mul_add(t103, t324, t131 * t308);
+    let t350 = mul_add(t103, t325, t131 * t309);
+    let t351 = P::triple([P::lane(t316, 0), P::lane(t315, 0), P::lane(t314, 0)]);
+    let t352 = P::triple([P::lane(t316, 1), P::lane(t315, 1), P::lane(t314, 1)]);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t356 = mul_add(t265, t307, t332);
-    let t357 = mul_add(t253, t307, t333);
-    let t358 = mul_add(t285, t307, t334);
+    let t353 = mul_add(t264, t304, t329);
+    let t354 = mul_add(t257, t304, t330);
+    let t355 = mul_add(t285, t304, t331);
     // mass matrix in base coordinates
-    let t359 = mul_add(t168, t268, t156 * t258);
+    let t356 = mul_add(t169, t267, t159 * t260);
     // first moments by platform coordinate of the payload's inertia force
-    let t360 = mul_add(t101, P::splat(P::lane(t331, 0)), t345);
+    let t357 = mul_add(t101, P::splat(P::lane(t328, 0)), t342);
     // inertia less external wrench that the actuators must balance
-    let t361 = mul_add(t2, P::splat(external_wrench[0]), t346);
+    let t358 = mul_add(t2, P::splat(external_wrench[0]), t343);
     // mass matrix in base coordinates
-    let t362 = P::triple([P::lane(t308, 2), P::lane(t313, 2), P::lane(t314, 2)]);
-    let t363 = mul_add(t196, t268, t189 * t258);
-    let t364 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
-    let t365 = P::lane(t323, 1) + t349;
-    let t366 = t350 + (P::lane(t306, 2) + (P::lane(t306, 1) + P::lane(t306, 0)));
-    let t367 = P::triple([P::lane(t319, 2), P::lane(t318, 2), P::lane(t317, 2)]);
-    let t368 = t354 + t355 + t367;
-    let t369 = mul_add(t114, t326, t137 * t309);
-    let t370 = mul_add(t114, t327, t137 * t311);
-    let t371 = mul_add(t114, t328, t137 * t312);
+    let t359 = P::triple([P::lane(t305, 2), P::lane(t310, 2), P::lane(t311, 2)]);
+    let t360 = mul_add(t197, t267, t191 * t260);
+    let t361 = P::lane(t307, 2) + (P::lane(t307, 1) + P::lane(t307, 0));
+    let t362 = P::lane(t320, 1) + t346;
+    let t363 = t347 + (P::lane(t303, 2) + (P::lane(t303, 1) + P::lane(t303, 0)));
+    let t364 = P::triple([P::lane(t316, 2), P::lane(t315, 2), P::lane(t314, 2)]);
+    let t365 = t351 + t352 + t364;
+    let t366 = mul_add(t113, t323, t142 * t306);
+    let t367 = mul_add(t113, t324, t142 * t308);
+    let t368 = mul_add(t113, t325, t142 * t309);
     // wrench left at the trial acceleration
-    let t372 = neg_mul_add(t38, t358, mul_add(t287, t343, t335));
-    let t373 = neg_mul_add(t45, t356, mul_add(t288, t343, t336));
-    let t374 = neg_mul_add(t39, t357, mul_add(t289, t343, t337));
+    let t369 = mul_add(t47, t354, mul_add(t287, t340, t332));
+    let t370 = mul_add(t40, t355, mul_add(t288, t340, t333));
+    let t371 = mul_add(t39, t353, mul_add(t289, t340, t334));
     // mass matrix in base coordinates
-    let t375 = P::triple([P::lane(t339, 0), P::lane(t340, 0), P::lane(t341, 0)]);
-    let t376 = P::triple([P::lane(t339, 1), P::lane(t340, 1), P::lane(t341, 1)]);
-    let t377 = P::lane(t329, 2) + (P::lane(t329, 1) + P::lane(t329, 0));
-    let t378 = t364 + P::lane(t323, 0);
+    let t372 = P::triple([P::lane(t336, 0), P::lane(t337, 0), P::lane(t338, 0)]);
+    let t373 = P::triple([P::lane(t336, 1), P::lane(t337, 1), P::lane(t338, 1)]);
+    let t374 = P::lane(t326, 2) + (P::lane(t326, 1) + P::lane(t326, 0));
+    let t375 = t361 + P::lane(t320, 0);
     // first moments by platform coordinate of the payload's inertia force
-    let t379 = mul_add(t113, P::splat(P::lane(t324, 2)), t360);
+    let t376 = mul_add(t112, P::splat(P::lane(t321, 2)), t357);
     // inertia less external wrench that the actuators must balance
-    let t380 = mul_add(t5, P::splat(external_wrench[2]), t361);
+    let t377 = mul_add(t5, P::splat(external_wrench[2]), t358);
     // mass matrix in base coordinates
-    let t381 = t347 + t348 + t362 + P::splat(t366);
-    let t382 = mul_add(t218, t268, t208 * t258);
-    let t383 = P::lane(t330, 2) + (P::lane(t330, 1) + P::lane(t330, 0));
+    let t378 = t344 + t345 + t359 + P::splat(t363);
+    let t379 = mul_add(t218, t267, t209 * t260);
+    let t380 = P::lane(t327, 2) + (P::lane(t327, 1) + P::lane(t327, 0));
     // first moments by platform coordinate of the payload's inertia force
-    let t384 = t94 * P::splat(P::lane(t331, 1));
+    let t381 = t94 * P::splat(P::lane(t328, 1));
     // mass matrix in base coordinates
-    let t385 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
-    let t386 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
-    let t387 = P::triple([P::lane(t339, 2), P::lane(t340, 2), P::lane(t341, 2)]);
-    let t388 = P::lane(t342, 2) + (P::lane(t342, 1) + P::lane(t342, 0));
-    let t389 = P::lane(t324, 0) + t377;
-    let t390 = P::mul_add(P::lane(t15, 2), t378, P::lane(t14, 2) * t365);
-    let t391 = P::mul_add(P::lane(t15, 0), t378, P::lane(t14, 0) * t365);
+    let t382 = P::triple([P::lane(t348, 0), P::lane(t349, 0), P::lane(t350, 0)]);
+    let t383 = P::triple([P::lane(t348, 1), P::lane(t349, 1), P::lane(t350, 1)]);
+    let t384 = P::triple([P::lane(t336, 2), P::lane(t337, 2), P::lane(t338, 2)]);
+    let t385 = P::lane(t339, 2) + (P::lane(t339, 1) + P::lane(t339, 0));
+    let t386 = P::lane(t321, 0) + t374;
+    let t387 = P::mul_add(P::lane(t15, 2), t375, P::lane(t14, 2) * t362);
+    let t388 = P::mul_add(P::lane(t15, 0), t375, P::lane(t14, 0) * t362);
     // wrench left at the trial acceleration
-    let t392 = mul_add(t45, t357, t372);
-    let t393 = mul_add(t39, t358, t373);
-    let t394 = mul_add(t38, t356, t374);
+    let t389 = neg_mul_add(t39, t355, t369);
+    let t390 = neg_mul_add(t47, t353, t370);
+    let t391 = neg_mul_add(t40, t354, t371);
     // mass matrix in base coordinates
-    let t395 = t375 + t376 + t387;
-    let t396 = P::lane(t344, 2) + (P::lane(t344, 1) + P::lane(t344, 0));
-    let t397 = P::lane(t323, 2) + t383;
+    let t392 = t372 + t373 + t384;
+    let t393 = P::lane(t341, 2) + (P::lane(t341, 1) + P::lane(t341, 0));
+    let t394 = P::lane(t320, 2) + t380;
     // first moments by platform coordinate of the payload's inertia force
-    let t398 = mul_add(t101, P::splat(P::lane(t324, 0)), t384);
+    let t395 = mul_add(t101, P::splat(P::lane(t321, 0)), t381);
     // wrench left at the trial acceleration
-    let t399 = t356 - mul_sub(t126, t343, neg_mul_add(t103, t302, t277));
-    let t400 = t357 - mul_sub(t117, t343, neg_mul_add(t95, t302, t278));
-    let t401 = t358 - mul_sub(t137, t343, neg_mul_add(t114, t302, t279));
+    let t396 = t353 - mul_sub(t131, t340, neg_mul_add(t103, t290, t296));
+    let t397 = t354 - mul_sub(t123, t340, neg_mul_add(t95, t290, t297));
+    let t398 = t355 - mul_sub(t142, t340, neg_mul_add(t113, t290, t298));
     // mass matrix in base coordinates
-    let t402 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
-    let t403 = mul_add(t296, t326, t287 * t309);
-    let t404 = mul_add(t297, t327, t288 * t311);
-    let t405 = mul_add(t298, t328, t289 * t312);
-    let t406 = P::lane(t331, 0) + t388;
-    let t407 = P::triple([P::lane(t368, 2), P::lane(t368, 2), P::lane(t368, 0)]);
-    let t408 = P::triple([P::lane(t368, 1), P::lane(t368, 0), P::lane(t368, 1)]);
-    let t409 = P::mul_add(P::lane(t15, 1), t378, P::lane(t14, 1) * t365);
-    let t410 = t385 + t386 + t402;
-    let t411 = P::triple([P::lane(t369, 0), P::lane(t370, 0), P::lane(t371, 0)]);
-    let t412 = P::triple([P::lane(t369, 1), P::lane(t370, 1), P::lane(t371, 1)]);
-    let t413 = mul_add(t296, t327, t287 * t311);
-    let t414 = mul_add(t296, t328, t287 * t312);
-    let t415 = mul_add(t297, t328, t288 * t312);
-    let t416 = P::lane(t331, 1) + t396;
-    let t417 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
+    let t399 = P::triple([P::lane(t348, 2), P::lane(t349, 2), P::lane(t350, 2)]);
+    let t400 = mul_add(t278, t323, t287 * t306);
+    let t401 = mul_add(t279, t324, t288 * t308);
+    let t402 = mul_add(t280, t325, t289 * t309);
+    let t403 = P::lane(t328, 0) + t385;
+    let t404 = P::triple([P::lane(t365, 2), P::lane(t365, 2), P::lane(t365, 0)]);
+    let t405 = P::triple([P::lane(t365, 1), P::lane(t365, 0), P::lane(t365, 1)]);
+    let t406 = P::mul_add(P::lane(t15, 1), t375, P::lane(t14, 1) * t362);
+    let t407 = t382 + t383 + t399;
+    let t408 = P::triple([P::lane(t366, 0), P::lane(t367, 0), P::lane(t368, 0)]);
+    let t409 = P::triple([P::lane(t366, 1), P::lane(t367, 1), P::lane(t368, 1)]);
+    let t410 = mul_add(t278, t324, t287 * t308);
+    let t411 = mul_add(t278, t325, t287 * t309);
+    let t412 = mul_add(t279, t325, t288 * t309);
+    let t413 = P::lane(t328, 1) + t393;
+    let t414 = P::lane(t356, 2) + (P::lane(t356, 1) + P::lane(t356, 0));
     // acceleration that removes the residual wrench
-    let t418 = mul_sub(t407, t408, t368 * t381);
+    let t415 = mul_sub(t404, t405, t365 * t378);
     // mass matrix in base coordinates
-    let t419 = P::mul_add(P::lane(t17, 2), t397, t390);
-    let t420 = P::mul_add(P::lane(t17, 0), t397, t391);
-    let t421 = P::lane(t363, 2) + (P::lane(t363, 1) + P::lane(t363, 0));
+    let t416 = P::mul_add(P::lane(t17, 2), t394, t387);
+    let t417 = P::mul_add(P::lane(t17, 0), t394, t388);
+    let t418 = P::lane(t360, 2) + (P::lane(t360, 1) + P::lane(t360, 0));
     // first moments by platform coordinate of the payload's inertia force
-    let t422 = mul_add(t113, P::splat(P::lane(t324, 1)), t398);
+    let t419 = mul_add(t112, P::splat(P::lane(t321, 1)), t395);
     // inertia less external wrench that the actuators must balance
-    let t423 = P::triple([P::lane(t380, 1), P::lane(t380, 2), P::lane(t380, 0)]);
+    let t420 = P::triple([P::lane(t377, 1), P::lane(t377, 2), P::lane(t377, 0)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t424 = P::triple([P::lane(t379, 1), P::lane(t379, 2), P::lane(t379, 0)]);
+    let t421 = P::triple([P::lane(t376, 1), P::lane(t376, 2), P::lane(t376, 0)]);
     // mass matrix in base coordinates
-    let t425 = mul_add(t15, P::splat(t406), t14 * P::splat(t389));
+    let t422 = mul_add(t15, P::splat(t403), t14 * P::splat(t386));
     // first moments by platform coordinate of the payload's inertia force
-    let t426 = t94 * P::splat(P::lane(t324, 1));
+    let t423 = t94 * P::splat(P::lane(t321, 1));
     // inertia less external wrench that the actuators must balance
-    let t427 = neg_mul_add(P::splat(parameters.payload_com[0]), t423, t424);
+    let t424 = neg_mul_add(P::splat(parameters.payload_com[0]), t420, t421);
     // mass matrix in base coordinates
-    let t428 = P::triple([P::lane(t369, 2), P::lane(t370, 2), P::lane(t371, 2)]);
-    let t429 = P::lane(t324, 2) + t417;
-    let t430 = P::mul_add(P::lane(t17, 1), t397, t409);
-    let t431 = t411 + t412 + t428;
-    let t432 = P::lane(t324, 1) + t421;
-    let t433 = P::triple([P::lane(t381, 1), P::lane(t381, 0), P::lane(t381, 1)]);
-    let t434 = P::triple([P::lane(t381, 2), P::lane(t381, 2), P::lane(t381, 0)]);
-    let t435 = P::lane(t395, 0) - t419;
+    let t425 = P::triple([P::lane(t366, 2), P::lane(t367, 2), P::lane(t368, 2)]);
+    let t426 = P::lane(t321, 2) + t414;
+    let t427 = P::mul_add(P::lane(t17, 1), t394, t406);
+    let t428 = t408 + t409 + t425;
+    let t429 = P::lane(t321, 1) + t418;
+    let t430 = P::triple([P::lane(t378, 1), P::lane(t378, 0), P::lane(t378, 1)]);
+    let t431 = P::triple([P::lane(t378, 2), P::lane(t378, 2), P::lane(t378, 0)]);
+    let t432 = P::lane(t392, 0) - t416;
     // wrench left at the trial acceleration
-    let t436 = P::triple([P::lane(t399, 0), P::lane(t400, 0), P::lane(t401, 0)]);
-    let t437 = P::triple([P::lane(t399, 1), P::lane(t400, 1), P::lane(t401, 1)]);
-    let t438 = P::triple([P::lane(t392, 0), P::lane(t393, 0), P::lane(t394, 0)]);
-    let t439 = P::triple([P::lane(t392, 1), P::lane(t393, 1), P::lane(t394, 1)]);
+    let t433 = P::triple([P::lane(t396, 0), P::lane(t397, 0), P::lane(t398, 0)]);
+    let t434 = P::triple([P::lane(t396, 1), P::lane(t397, 1), P::lane(t398, 1)]);
+    let t435 = P::triple([P::lane(t389, 0), P::lane(t390, 0), P::lane(t391, 0)]);
+    let t436 = P::triple([P::lane(t389, 1), P::lane(t390, 1), P::lane(t391, 1)]);
     // mass matrix in base coordinates
-    let t440 = P::lane(t382, 2) + (P::lane(t382, 1) + P::lane(t382, 0));
+    let t437 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
     // acceleration that removes the residual wrench
-    let t441 = mul_sub(t433, t434, t368 * t368);
+    let t438 = mul_sub(t430, t431, t365 * t365);
     // first moments by platform coordinate of the payload's inertia force
-    let t442 = mul_add(t101, P::splat(P::lane(t324, 2)), t426);
+    let t439 = mul_add(t101, P::splat(P::lane(t321, 2)), t423);
     // mass matrix in base coordinates
-    let t443 = mul_add(t17, P::splat(t429), t425);
-    let t444 = mul_add(t15, P::splat(t389), t14 * P::splat(t416));
-    let t445 = P::triple([P::lane(t403, 0), P::lane(t404, 0), P::lane(t405, 0)]);
-    let t446 = P::triple([P::lane(t403, 1), P::lane(t404, 1), P::lane(t405, 1)]);
-    let t447 = t419 + P::lane(t410, 1);
-    let t448 = P::triple([t435, P::lane(t395, 1), t420 + P::lane(t395, 2)]);
+    let t440 = mul_add(t17, P::splat(t426), t422);
+    let t441 = mul_add(t15, P::splat(t386), t14 * P::splat(t413));
+    let t442 = P::triple([P::lane(t400, 0), P::lane(t401, 0), P::lane(t402, 0)]);
+    let t443 = P::triple([P::lane(t400, 1), P::lane(t401, 1), P::lane(t402, 1)]);
+    let t444 = t416 + P::lane(t407, 1);
+    let t445 = P::triple([t432, P::lane(t392, 1), t417 + P::lane(t392, 2)]);
     // wrench left at the trial acceleration
-    let t449 = P::triple([P::lane(t399, 2), P::lane(t400, 2), P::lane(t401, 2)]);
-    let t450 = P::triple([P::lane(t392, 2), P::lane(t393, 2), P::lane(t394, 2)]);
+    let t446 = P::triple([P::lane(t396, 2), P::lane(t397, 2), P::lane(t398, 2)]);
+    let t447 = P::triple([P::lane(t389, 2), P::lane(t390, 2), P::lane(t391, 2)]);
     // mass matrix in base coordinates
-    let t451 = P::lane(t331, 2) + t440;
-    let t452 = P::triple([P::lane(t415, 0), P::lane(t414, 0), P::lane(t413, 0)]);
-    let t453 = P::triple([P::lane(t415, 1), P::lane(t414, 1), P::lane(t413, 1)]);
+    let t448 = P::lane(t328, 2) + t437;
+    let t449 = P::triple([P::lane(t412, 0), P::lane(t411, 0), P::lane(t410, 0)]);
+    let t450 = P::triple([P::lane(t412, 1), P::lane(t411, 1), P::lane(t410, 1)]);
     // acceleration that removes the residual wrench
-    let t454 = P::splat(P::lane(t418, 2)) * t448;
+    let t451 = P::splat(P::lane(t415, 2)) * t445;
     // first moments by platform coordinate of the payload's inertia force
-    let t455 = mul_add(t113, P::splat(P::lane(t331, 2)), t442);
-    let t456 = P::triple([P::lane(t422, 1), P::lane(t422, 2), P::lane(t422, 0)]);
+    let t452 = mul_add(t112, P::splat(P::lane(t328, 2)), t439);
+    let t453 = P::triple([P::lane(t419, 1), P::lane(t419, 2), P::lane(t419, 0)]);
     // mass matrix in base coordinates
-    let t457 = P::triple([P::lane(t403, 2), P::lane(t404, 2), P::lane(t405, 2)]);
-    let t458 = mul_add(t17, P::splat(t432), t444);
-    let t459 = mul_add(t15, P::splat(t429), t14 * P::splat(t432));
-    let t460 = P::triple([P::lane(t410, 0), t447, P::lane(t410, 2) - t430]);
+    let t454 = P::triple([P::lane(t400, 2), P::lane(t401, 2), P::lane(t402, 2)]);
+    let t455 = mul_add(t17, P::splat(t429), t441);
+    let t456 = mul_add(t15, P::splat(t426), t14 * P::splat(t429));
+    let t457 = P::triple([P::lane(t407, 0), t444, P::lane(t407, 2) - t427]);
     // inertia less external wrench that the actuators must balance
-    let t461 = neg_mul_add(P::splat(parameters.payload_com[1]), t423, t456);
-    let t462 = P::triple([P::lane(t427, 1), P::lane(t427, 2), P::lane(t427, 0)]);
+    let t458 = neg_mul_add(P::splat(parameters.payload_com[1]), t420, t453);
+    let t459 = P::triple([P::lane(t424, 1), P::lane(t424, 2), P::lane(t424, 0)]);
     // mass matrix in base coordinates
-    let t463 = P::triple([P::lane(t415, 2), P::lane(t414, 2), P::lane(t413, 2)]);
+    let t460 = P::triple([P::lane(t412, 2), P::lane(t411, 2), P::lane(t410, 2)]);
     // acceleration that removes the residual wrench
-    let t464 = mul_add(P::splat(P::lane(t441, 0)), t460, t454);
+    let t461 = mul_add(P::splat(P::lane(t438, 0)), t457, t451);
     // mass matrix in base coordinates
-    let t465 = t430 + P::lane(t431, 0);
-    let t466 = P::lane(t431, 1) - t420;
+    let t462 = t427 + P::lane(t428, 0);
+    let t463 = P::lane(t428, 1) - t417;
     // wrench left at the trial acceleration
-    let t467 = mul_add(t101, P::splat(P::lane(t323, 0)), t436 + t437 + t449);
-    let t468 = neg_mul_add(t70, t462, t438 + t439 + t450);
+    let t464 = mul_add(t101, P::splat(P::lane(t320, 0)), t433 + t434 + t446);
+    let t465 = neg_mul_add(t71, t459, t435 + t436 + t447);
     // mass matrix in base coordinates
-    let t469 = t445 + t446 + t457 + P::splat(t406 + t416 + t451);
-    let t470 = mul_add(t17, P::splat(t451), t459);
+    let t466 = t442 + t443 + t454 + P::splat(t403 + t413 + t448);
+    let t467 = mul_add(t17, P::splat(t448), t456);
     // rotation of the platform seen from the base
-    let t471 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    let t468 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
     // mass matrix in base coordinates
-    let t472 = P::triple([P::lane(t443, 1), P::lane(t443, 0), P::lane(t443, 0)]);
-    let t473 = P::triple([t465, t466, P::lane(t431, 2)]);
+    let t469 = P::triple([P::lane(t440, 1), P::lane(t440, 0), P::lane(t440, 0)]);
+    let t470 = P::triple([t462, t463, P::lane(t428, 2)]);
     // rotation of the platform seen from the base
-    let t474 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t471 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // mass matrix in base coordinates
-    let t475 = neg_mul_add(t471, t472, t452 + t453 + t463);
+    let t472 = neg_mul_add(t468, t469, t449 + t450 + t460);
     // acceleration that removes the residual wrench
-    let t476 = mul_add(P::splat(P::lane(t418, 1)), t473, t464);
-    let t477 = t448 * P::splat(P::lane(t441, 1));
+    let t473 = mul_add(P::splat(P::lane(t415, 1)), t470, t461);
+    let t474 = t445 * P::splat(P::lane(t438, 1));
     // wrench left at the trial acceleration
-    let t478 = mul_add(t94, P::splat(P::lane(t323, 1)), t467);
+    let t475 = mul_add(t94, P::splat(P::lane(t320, 1)), t464);
     // acceleration that removes the residual wrench
-    let t479 = P::lane(t368, 2) * P::lane(t418, 2);
+    let t476 = P::lane(t365, 2) * P::lane(t415, 2);
     // first moments by platform coordinate of the payload's inertia force
-    let t480 = P::triple([P::lane(t455, 1), P::lane(t455, 2), P::lane(t455, 0)]);
+    let t477 = P::triple([P::lane(t452, 1), P::lane(t452, 2), P::lane(t452, 0)]);
     // rotation of the platform seen from the base
-    let t481 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    let t478 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
     // mass matrix in base coordinates
-    let t482 = P::triple([P::lane(t458, 1), P::lane(t458, 0), P::lane(t458, 0)]);
+    let t479 = P::triple([P::lane(t455, 1), P::lane(t455, 0), P::lane(t455, 0)]);
     // acceleration that removes the residual wrench
-    let t483 = mul_add(P::splat(P::lane(t418, 2)), t460, t477);
+    let t480 = mul_add(P::splat(P::lane(t415, 2)), t457, t474);
     // inertia less external wrench that the actuators must balance
-    let t484 = neg_mul_add(P::splat(parameters.payload_com[2]), t423, t480);
-    let t485 = P::triple([P::lane(t461, 1), P::lane(t461, 2), P::lane(t461, 0)]);
+    let t481 = neg_mul_add(P::splat(parameters.payload_com[2]), t420, t477);
+    let t482 = P::triple([P::lane(t458, 1), P::lane(t458, 2), P::lane(t458, 0)]);
     // acceleration that removes the residual wrench
-    let t486 = t448 * P::splat(P::lane(t418, 0));
-    let t487 = P::mul_add(P::lane(t381, 0), P::lane(t441, 0), t479);
+    let t483 = t445 * P::splat(P::lane(t415, 0));
+    let t484 = P::mul_add(P::lane(t378, 0), P::lane(t438, 0), t476);
     // wrench left at the trial acceleration
-    let t488 = neg_mul_add(t63, t485, mul_add(t427, t474, t468));
+    let t485 = neg_mul_add(t63, t482, mul_add(t424, t471, t465));
     // mass matrix in base coordinates
-    let t489 = neg_mul_add(t14, t458, neg_mul_add(t15, t443, t469));
+    let t486 = neg_mul_add(t14, t455, neg_mul_add(t15, t440, t466));
     // rotation of the platform seen from the base
-    let t490 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    let t487 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
     // acceleration that removes the residual wrench
-    let t491 = mul_add(t473, P::splat(P::lane(t418, 0)), t483);
+    let t488 = mul_add(t470, P::splat(P::lane(t415, 0)), t480);
     // mass matrix in base coordinates
-    let t492 = P::triple([P::lane(t470, 1), P::lane(t470, 0), P::lane(t470, 0)]);
+    let t489 = P::triple([P::lane(t467, 1), P::lane(t467, 0), P::lane(t467, 0)]);
     // acceleration that removes the residual wrench
-    let t493 = mul_add(t460, P::splat(P::lane(t418, 1)), t486);
+    let t490 = mul_add(t457, P::splat(P::lane(t415, 1)), t483);
     // rotation of the platform seen from the base
-    let t494 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t491 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // mass matrix in base coordinates
-    let t495 = neg_mul_add(t490, t492, neg_mul_add(t481, t482, t475));
+    let t492 = neg_mul_add(t487, t489, neg_mul_add(t478, t479, t472));
     // acceleration that removes the residual wrench
-    let t496 = P::mul_add(P::lane(t368, 1), P::lane(t418, 1), t487);
+    let t493 = P::mul_add(P::lane(t365, 1), P::lane(t415, 1), t484);
     // mass matrix in base coordinates
-    let t497 = P::triple([t447, P::lane(t410, 0), P::lane(t410, 0)]);
+    let t494 = P::triple([t444, P::lane(t407, 0), P::lane(t407, 0)]);
     // acceleration that removes the residual wrench
-    let t498 = P::triple([P::lane(t476, 2), P::lane(t476, 2), P::lane(t476, 1)]);
+    let t495 = P::triple([P::lane(t473, 2), P::lane(t473, 2), P::lane(t473, 1)]);
     // wrench left at the trial acceleration
-    let t499 = t380 - mul_add(t113, P::splat(P::lane(t323, 2)), t478);
+    let t496 = t377 - mul_add(t112, P::splat(P::lane(t320, 2)), t475);
     // mass matrix in base coordinates
-    let t500 = neg_mul_add(t17, t470, t489);
+    let t497 = neg_mul_add(t17, t467, t486);
     // acceleration that removes the residual wrench
-    let t501 = mul_add(t473, P::splat(P::lane(t441, 2)), t493);
+    let t498 = mul_add(t470, P::splat(P::lane(t438, 2)), t490);
     // inertia less external wrench that the actuators must balance
-    let t502 = P::triple([P::lane(t484, 1), P::lane(t484, 2), P::lane(t484, 0)]);
+    let t499 = P::triple([P::lane(t481, 1), P::lane(t481, 2), P::lane(t481, 0)]);
     // acceleration that removes the residual wrench
-    let t503 = mul_sub(t495, P::splat(t496), t497 * t498);
+    let t500 = mul_sub(t492, P::splat(t493), t494 * t495);
     // wrench left at the trial acceleration
-    let t504 = neg_mul_add(t76, t502, mul_add(t461, t494, t488));
+    let t501 = neg_mul_add(t76, t499, mul_add(t458, t491, t485));
     // acceleration that removes the residual wrench
-    let t505 = mul_sub(P::splat(t496), t500, t460 * t476);
+    let t502 = mul_sub(P::splat(t493), t497, t457 * t473);
     // mass matrix in base coordinates
-    let t506 = P::triple([P::lane(t395, 1), t435, t435]);
+    let t503 = P::triple([P::lane(t392, 1), t432, t432]);
     // acceleration that removes the residual wrench
-    let t507 = P::triple([P::lane(t491, 2), P::lane(t491, 2), P::lane(t491, 1)]);
+    let t504 = P::triple([P::lane(t488, 2), P::lane(t488, 2), P::lane(t488, 1)]);
     // rotation of the platform seen from the base
-    let t508 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    let t505 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // wrench left at the trial acceleration
-    let t509 = P::triple([P::lane(t499, 1), P::lane(t499, 2), P::lane(t499, 0)]);
+    let t506 = P::triple([P::lane(t496, 1), P::lane(t496, 2), P::lane(t496, 0)]);
     // acceleration that removes the residual wrench
-    let t510 = P::triple([P::lane(t418, 2), P::lane(t418, 0), P::lane(t418, 1)]);
+    let t507 = P::triple([P::lane(t415, 2), P::lane(t415, 0), P::lane(t415, 1)]);
     // mass matrix in base coordinates
-    let t511 = P::triple([t466, t465, t465]);
+    let t508 = P::triple([t463, t462, t462]);
     // acceleration that removes the residual wrench
-    let t512 = P::triple([P::lane(t501, 2), P::lane(t501, 2), P::lane(t501, 1)]);
+    let t509 = P::triple([P::lane(t498, 2), P::lane(t498, 2), P::lane(t498, 1)]);
     // wrench left at the trial acceleration
-    let t513 = P::triple([P::lane(t499, 2), P::lane(t499, 0), P::lane(t499, 1)]);
+    let t510 = P::triple([P::lane(t496, 2), P::lane(t496, 0), P::lane(t496, 1)]);
     // acceleration that removes the residual wrench
-    let t514 = P::triple([P::lane(t418, 1), P::lane(t418, 2), P::lane(t418, 0)]);
-    let t515 = neg_mul_add(t511, t512, neg_mul_add(t506, t507, t503));
+    let t511 = P::triple([P::lane(t415, 1), P::lane(t415, 2), P::lane(t415, 0)]);
+    let t512 = neg_mul_add(t508, t509, neg_mul_add(t503, t504, t500));
     // wrench left at the trial acceleration
-    let t516 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t484, t508, t504));
+    let t513 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t481, t505, t501));
     // acceleration that removes the residual wrench
-    let t517 = neg_mul_add(t473, t501, neg_mul_add(t448, t491, t505));
-    let t518 = mul_add(t513, t514, mul_add(t441, t499, t509 * t510));
+    let t514 = neg_mul_add(t470, t498, neg_mul_add(t445, t488, t502));
+    let t515 = mul_add(t510, t511, mul_add(t438, t496, t506 * t507));
     // wrench left at the trial acceleration
-    let t519 = mul_add(t1, P::splat(external_wrench[4]), t516);
+    let t516 = mul_add(t1, P::splat(external_wrench[4]), t513);
     // acceleration that removes the residual wrench
-    let t520 = P::triple([P::lane(t515, 1), P::lane(t515, 0), P::lane(t515, 1)]);
-    let t521 = P::triple([P::lane(t515, 2), P::lane(t515, 2), P::lane(t515, 0)]);
+    let t517 = P::triple([P::lane(t512, 1), P::lane(t512, 0), P::lane(t512, 1)]);
+    let t518 = P::triple([P::lane(t512, 2), P::lane(t512, 2), P::lane(t512, 0)]);
     // wrench left at the trial acceleration
-    let t522 = mul_add(t5, P::splat(external_wrench[5]), t519);
+    let t519 = mul_add(t5, P::splat(external_wrench[5]), t516);
     // acceleration that removes the residual wrench
-    let t523 = mul_sub(t520, t521, t515 * t517);
-    let t524 = P::triple([P::lane(t517, 1), P::lane(t517, 0), P::lane(t517, 1)]);
-    let t525 = mul_sub(P::splat(t496), t522, t460 * P::splat(P::lane(t518, 0)));
-    let t526 = P::triple([P::lane(t517, 2), P::lane(t517, 2), P::lane(t517, 0)]);
-    let t527 = mul_sub(t524, t526, t515 * t515);
-    let t528 = P::triple([P::lane(t476, 0), P::lane(t491, 0), P::lane(t501, 0)]);
-    let t529 = P::triple([P::lane(t476, 1), P::lane(t491, 1), P::lane(t501, 1)]);
-    let t530 = neg_mul_add(t448, P::splat(P::lane(t518, 1)), t525);
-    let t531 = P::triple([P::lane(t476, 2), P::lane(t491, 2), P::lane(t501, 2)]);
-    let t532 = P::lane(t515, 2) * P::lane(t523, 2);
-    let t533 = P::triple([P::lane(t523, 2), P::lane(t523, 0), P::lane(t523, 1)]);
-    let t534 = P::triple([P::lane(t523, 1), P::lane(t523, 2), P::lane(t523, 0)]);
+    let t520 = mul_sub(t517, t518, t512 * t514);
+    let t521 = P::triple([P::lane(t514, 1), P::lane(t514, 0), P::lane(t514, 1)]);
+    let t522 = mul_sub(P::splat(t493), t519, t457 * P::splat(P::lane(t515, 0)));
+    let t523 = P::triple([P::lane(t514, 2), P::lane(t514, 2), P::lane(t514, 0)]);
+    let t524 = mul_sub(t521, t523, t512 * t512);
+    let t525 = P::triple([P::lane(t473, 0), P::lane(t488, 0), P::lane(t498, 0)]);
+    let t526 = P::triple([P::lane(t473, 1), P::lane(t488, 1), P::lane(t498, 1)]);
+    let t527 = neg_mul_add(t445, P::splat(P::lane(t515, 1)), t522);
+    let t528 = P::triple([P::lane(t473, 2), P::lane(t488, 2), P::lane(t498, 2)]);
+    let t529 = P::lane(t512, 2) * P::lane(t520, 2);
+    let t530 = P::triple([P::lane(t520, 2), P::lane(t520, 0), P::lane(t520, 1)]);
+    let t531 = P::triple([P::lane(t520, 1), P::lane(t520, 2), P::lane(t520, 0)]);
     // constant and copied elements
-    let t535 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    let t536 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t532 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t533 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // acceleration that removes the residual wrench
-    let t537 = P::mul_add(P::lane(t517, 0), P::lane(t527, 0), t532);
-    let t538 = neg_mul_add(t473, P::splat(P::lane(t518, 2)), t530);
+    let t534 = P::mul_add(P::lane(t514, 0), P::lane(t524, 0), t529);
+    let t535 = neg_mul_add(t470, P::splat(P::lane(t515, 2)), t527);
     // constant and copied elements
-    let t539 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
-    let t540 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    let t536 = P::triple([parameters.gravity[0], parameters.gravity[1], parameters.gravity[2]]);
+    let t537 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // acceleration that removes the residual wrench
-    let t541 = c(1.0) / P::mul_add(P::lane(t515, 1), P::lane(t523, 1), t537);
-    let t542 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
-    let t543 = P::triple([P::lane(t538, 2), P::lane(t538, 0), P::lane(t538, 1)]);
-    let t544 = mul_add(t534, t543, mul_add(t527, t538, t533 * t542));
-    let t545 = P::splat(t541) * t544;
-    let t546 = neg_mul_add(t528, P::splat(P::lane(t545, 0)), t518);
+    let t538 = c(1.0) / P::mul_add(P::lane(t512, 1), P::lane(t520, 1), t534);
+    let t539 = P::triple([P::lane(t535, 1), P::lane(t535, 2), P::lane(t535, 0)]);
+    let t540 = P::triple([P::lane(t535, 2), P::lane(t535, 0), P::lane(t535, 1)]);
+    let t541 = mul_add(t531, t540, mul_add(t524, t535, t530 * t539));
+    let t542 = P::splat(t538) * t541;
+    let t543 = neg_mul_add(t525, P::splat(P::lane(t542, 0)), t515);
     // platform acceleration v_p'
-    let t547 = t535 * P::splat(P::lane(t545, 1));
+    let t544 = t532 * P::splat(P::lane(t542, 1));
     // acceleration that removes the residual wrench
-    let t548 = neg_mul_add(t529, P::splat(P::lane(t545, 1)), t546);
+    let t545 = neg_mul_add(t526, P::splat(P::lane(t542, 1)), t543);
     // platform acceleration v_p'
-    let t549 = mul_add(t536, P::splat(P::lane(t545, 0)), t547);
+    let t546 = mul_add(t533, P::splat(P::lane(t542, 0)), t544);
     // acceleration that removes the residual wrench
-    let t550 = neg_mul_add(t531, P::splat(P::lane(t545, 2)), t548);
+    let t547 = neg_mul_add(t528, P::splat(P::lane(t542, 2)), t545);
     // platform acceleration v_p'
-    let t551 = mul_add(t540, P::splat(P::lane(t545, 2)), t549);
+    let t548 = mul_add(t537, P::splat(P::lane(t542, 2)), t546);
     // acceleration that removes the residual wrench
-    let t552 = P::splat(c(1.0) / t496) * t550;
+    let t549 = P::splat(c(1.0) / t493) * t547;
     // platform acceleration v_p'
-    let t553 = t535 * P::splat(P::lane(t552, 1));
-    let t554 = mul_add(t536, P::splat(P::lane(t552, 0)), t553);
-    let t555 = mul_add(t540, P::splat(P::lane(t552, 2)), t539) + t554;
-    forward_dynamics[0] = P::lane(t555, 0);
-    forward_dynamics[1] = P::lane(t555, 1);
-    forward_dynamics[2] = P::lane(t555, 2);
-    forward_dynamics[3] = P::lane(t551, 0);
-    forward_dynamics[4] = P::lane(t551, 1);
-    forward_dynamics[5] = P::lane(t551, 2);
+    let t550 = t532 * P::splat(P::lane(t549, 1));
+    let t551 = mul_add(t533, P::splat(P::lane(t549, 0)), t550);
+    let t552 = mul_add(t537, P::splat(P::lane(t549, 2)), t536) + t551;
+    forward_dynamics[0] = P::lane(t552, 0);
+    forward_dynamics[1] = P::lane(t552, 1);
+    forward_dynamics[2] = P::lane(t552, 2);
+    forward_dynamics[3] = P::lane(t548, 0);
+    forward_dynamics[4] = P::lane(t548, 1);
+    forward_dynamics[5] = P::lane(t548, 2);
 }

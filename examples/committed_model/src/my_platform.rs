@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `my_platform`, every number baked in.
 //
-// graph     uhp.json, sha256 82fa8a4ef04af3668f0d3b83c71bc9dcd7af7a145ea685863609ee749b2ebe13
+// graph     uhp.json, sha256 0399b6f8b8367dab7d7d20b36d70f33c0006136fb5624574d2be953de4e83b7b
 //           derived by CasADi 3.8.2
 // platform  my_platform, sha256 of its resolved numbers 886f7852017ac711714d460253875c97521dd7a6f031f093de91b55faddbe2d3
 //
