@@ -20,7 +20,8 @@ const MAX_RATIO: f64 = 3.0;
 /// Times of everything that a controller asks of the model, in a loop at 10 kHz
 ///
 /// In every cycle one state goes in, and lengths, rates, J_dp, M_p, bias and forces come out: by generated code with all
-/// checks, and by the reference. Each takes its turn, several times. Close other programs first. While it waits for the next
+/// checks, and by the reference. Each takes its turn, several times, and so does nothing: two readings of the clock, which
+/// show what the machine itself adds. Close other programs first. While it waits for the next
 /// cycle the loop repeats the call of the last one, which is not measured.
 #[derive(Parser)]
 struct Arguments {
@@ -74,10 +75,11 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
 
     let mut generated: Vec<Run> = Vec::new();
     let mut reference: Vec<Run> = Vec::new();
+    let mut nothing: Vec<Run> = Vec::new();
     for number in 1..=arguments.runs {
         eprintln!("run {number} of {}", arguments.runs);
         let mut refused = false;
-        generated.push(run(duration, waiting, |cycle| {
+        generated.push(run(duration, waiting, &mut |cycle| {
             let result = bundle::generated(&typed[cycle % COUNT]);
             refused |= result.is_err();
             let _ = black_box(result);
@@ -85,13 +87,17 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
         if refused {
             return Err("a checked call refused a state that was sampled to be good".into());
         }
-        reference.push(run(duration, waiting, |cycle| {
+        reference.push(run(duration, waiting, &mut |cycle| {
             black_box(bundle::reference(&parameters, &states.reference[cycle % COUNT]));
+        })?);
+        nothing.push(run(duration, waiting, &mut |cycle| {
+            black_box(cycle);
         })?);
     }
     let after = Machine::now();
 
-    let reports = [report("generated", &generated), report("reference", &reference)];
+    let reports =
+        [report("generated", &generated), report("reference", &reference), report("nothing", &nothing)];
     if let Some(path) = &arguments.plot {
         let curves: Vec<Curve<'_>> = [("generated, checked", &generated), ("reference", &reference)]
             .map(|(name, runs)| Curve { name, runs: runs.iter().map(|run| &run.model).collect() })
