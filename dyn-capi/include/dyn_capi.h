@@ -731,7 +731,10 @@ uint8_t dyn_control_case(size_t index);
 
 // Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 //
-// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |) if its norm is not 1.
+// What rounding left of the norm (single precision is good enough) is divided out: the matrix is orthonormal.
+//
+// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |, `info.limit` how much is forgiven) if
+// its norm is not 1.
 dyn_status dyn_rotation_from_quaternion(const dyn_real *quaternion,
                                         dyn_real (*rotation)[3][3],
                                         struct dyn_info *info);
