@@ -11,8 +11,9 @@ use core::mem::size_of;
 
 use dyn_runtime::Error;
 
-use crate::control::{Coils, Control, CurrentsResult, ForwardKinematics, Limits, Margins};
+use crate::control::{Control, ForwardKinematics};
 use crate::inputs::{Inputs, States};
+use crate::limits::{Coils, CurrentsResult, Limits, Margins};
 use crate::model::{Model, Platform};
 use crate::outputs::{
     CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,

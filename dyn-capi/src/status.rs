@@ -6,7 +6,7 @@ use core::mem::size_of;
 use dyn_runtime::parameter::{ParameterError, ParameterProblem};
 use dyn_runtime::{Error, Input};
 
-use crate::control::Quantity;
+use crate::limits::Quantity;
 use crate::real::Real;
 
 /// How a call ended. With any status but DYN_STATUS_OK no output has been written.
