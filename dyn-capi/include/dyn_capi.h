@@ -58,6 +58,8 @@ enum dyn_status
   DYN_STATUS_BEYOND_LIMIT = 14,
   // A reason that this version of the interface has no status for.
   DYN_STATUS_OTHER = 15,
+  // The model does not carry what was asked for: the platform file does not give it, or parameters come at run time.
+  DYN_STATUS_NOT_IN_MODEL = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -526,16 +528,6 @@ typedef struct dyn_limits {
   dyn_real minimum_condition_bound;
 } dyn_limits;
 
-// The least margin of every quantity.
-typedef struct dyn_monitor_result {
-  // Set to sizeof(dyn_monitor_result) before the call.
-  size_t struct_size;
-  // Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
-  dyn_real margin[6];
-  // The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
-  int32_t leg[6];
-} dyn_monitor_result;
-
 // The voice coils of the six actuators.
 typedef struct dyn_voice_coils {
   // Set to sizeof(dyn_voice_coils).
@@ -545,6 +537,16 @@ typedef struct dyn_voice_coils {
   // Largest current either way, A; INFINITY is no limit.
   dyn_real maximum_current[6];
 } dyn_voice_coils;
+
+// The least margin of every quantity.
+typedef struct dyn_monitor_result {
+  // Set to sizeof(dyn_monitor_result) before the call.
+  size_t struct_size;
+  // Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
+  dyn_real margin[6];
+  // The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
+  int32_t leg[6];
+} dyn_monitor_result;
 
 // Currents for wanted forces.
 typedef struct dyn_currents_result {
@@ -695,6 +697,23 @@ dyn_status dyn_energy(const struct dyn_model *model,
                       const struct dyn_inputs *inputs,
                       struct dyn_energy_result *result,
                       struct dyn_info *info);
+
+// What the baked model's platform file says that actuators and joints may do, and the directions of the rods at home, for
+// dyn_monitor and dyn_check_limits; what it does not limit is INFINITY (minima -INFINITY), to be filled in where wanted.
+//
+// DYN_STATUS_NOT_IN_MODEL for models with parameters at run time, which no platform file is behind.
+dyn_status dyn_model_limits(const struct dyn_model *model,
+                            struct dyn_limits *limits,
+                            struct dyn_info *info);
+
+// The voice coils of the baked model's platform file, for dyn_currents: force constants, and the currents of the largest
+// forces, INFINITY for legs without a largest force.
+//
+// DYN_STATUS_NOT_IN_MODEL where the platform file does not give all six force constants, and for models with parameters at
+// run time.
+dyn_status dyn_model_voice_coils(const struct dyn_model *model,
+                                 struct dyn_voice_coils *coils,
+                                 struct dyn_info *info);
 
 // Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
 // beyond its limits is no error here: see dyn_check_limits.

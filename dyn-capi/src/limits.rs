@@ -1,4 +1,4 @@
-//! The calls about what actuators and joints may do: limits, margins to them, currents of voice coils.
+//! The calls about what actuators and joints may do: limits and coils of the platform file, margins, currents.
 
 use core::mem::size_of;
 
@@ -96,6 +96,39 @@ pub struct CurrentsResult {
     pub saturated_leg: i32,
 }
 
+/// What the baked model's platform file says that actuators and joints may do, and the directions of the rods at home, for
+/// dyn_monitor and dyn_check_limits; what it does not limit is INFINITY (minima -INFINITY), to be filled in where wanted.
+///
+/// DYN_STATUS_NOT_IN_MODEL for models with parameters at run time, which no platform file is behind.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dyn_model_limits(
+    model: *const Model,
+    limits: *mut Limits,
+    info: *mut Info,
+) -> Status {
+    // SAFETY: the caller keeps what the crate says.
+    unsafe { convert(limits, info, || in_model(structure(model)?.platform()?.limits().map(Into::into))) }
+}
+
+/// The voice coils of the baked model's platform file, for dyn_currents: force constants, and the currents of the largest
+/// forces, INFINITY for legs without a largest force.
+///
+/// DYN_STATUS_NOT_IN_MODEL where the platform file does not give all six force constants, and for models with parameters at
+/// run time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dyn_model_voice_coils(
+    model: *const Model,
+    coils: *mut Coils,
+    info: *mut Info,
+) -> Status {
+    // SAFETY: the caller keeps what the crate says.
+    unsafe { convert(coils, info, || in_model(structure(model)?.platform()?.voice_coils().map(Into::into))) }
+}
+
+fn in_model<T>(carried: Option<T>) -> Result<T, Refusal> {
+    carried.ok_or(Refusal::of(Status::NotInModel))
+}
+
 /// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
 /// beyond its limits is no error here: see dyn_check_limits.
 #[unsafe(no_mangle)]
@@ -148,11 +181,7 @@ pub unsafe extern "C" fn dyn_currents(
     // SAFETY: the caller keeps what the crate says.
     unsafe {
         convert(result, info, || {
-            let coils = structure(coils)?;
-            let coils = VoiceCoils {
-                force_constant_n_per_a: coils.force_constant,
-                maximum_current_a: coils.maximum_current,
-            };
+            let coils = VoiceCoils::from(structure(coils)?);
             Ok(coils.currents(&Vector6::from(array::<6>(actuator_force)?))?.into())
         })
     }
@@ -170,6 +199,39 @@ impl From<&Limits> for dyn_runtime::Limits<Real> {
             home_direction_in_base: limits.home_direction_in_base,
             home_direction_in_platform: limits.home_direction_in_platform,
             minimum_condition_bound: limits.minimum_condition_bound,
+        }
+    }
+}
+
+impl From<dyn_runtime::Limits<Real>> for Limits {
+    fn from(limits: dyn_runtime::Limits<Real>) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            minimum_length: limits.minimum_length_m,
+            maximum_length: limits.maximum_length_m,
+            maximum_velocity: limits.maximum_velocity_m_s,
+            maximum_force: limits.maximum_force_n,
+            maximum_hooke_joint_angle: limits.maximum_hooke_joint_angle_rad,
+            maximum_platform_joint_angle: limits.maximum_platform_joint_angle_rad,
+            home_direction_in_base: limits.home_direction_in_base,
+            home_direction_in_platform: limits.home_direction_in_platform,
+            minimum_condition_bound: limits.minimum_condition_bound,
+        }
+    }
+}
+
+impl From<&Coils> for VoiceCoils<Real> {
+    fn from(coils: &Coils) -> Self {
+        Self { force_constant_n_per_a: coils.force_constant, maximum_current_a: coils.maximum_current }
+    }
+}
+
+impl From<VoiceCoils<Real>> for Coils {
+    fn from(coils: VoiceCoils<Real>) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            force_constant: coils.force_constant_n_per_a,
+            maximum_current: coils.maximum_current_a,
         }
     }
 }
@@ -207,5 +269,29 @@ impl From<Currents<Real>> for CurrentsResult {
             factor: currents.saturation.map_or(1.0, |saturation| saturation.factor),
             saturated_leg: currents.saturation.map_or(-1, |saturation| saturation.leg as i32),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every number of a platform's limits and coils comes back from the structs of C.
+    #[test]
+    fn there_and_back() {
+        let limits = dyn_runtime::Limits {
+            minimum_length_m: [1.0; 6],
+            maximum_length_m: [2.0; 6],
+            maximum_velocity_m_s: [3.0; 6],
+            maximum_force_n: [4.0; 6],
+            maximum_hooke_joint_angle_rad: [5.0; 6],
+            maximum_platform_joint_angle_rad: [6.0; 6],
+            home_direction_in_base: [[7.0, 8.0, 9.0]; 6],
+            home_direction_in_platform: [[10.0, 11.0, 12.0]; 6],
+            minimum_condition_bound: 13.0,
+        };
+        assert_eq!(dyn_runtime::Limits::from(&Limits::from(limits)), limits);
+        let coils = VoiceCoils { force_constant_n_per_a: [1.0; 6], maximum_current_a: [2.0; 6] };
+        assert_eq!(VoiceCoils::from(&Coils::from(coils)), coils);
     }
 }

@@ -162,7 +162,7 @@ macro_rules! outputs {
     };
 }
 
-structures!(Inputs, Info, Model, UhpParameters, UpsParameters, Limits, Coils);
+structures!(Inputs, Info, Model, UhpParameters, UpsParameters);
 
 outputs!(
     CoriolisMatrices,
@@ -175,5 +175,7 @@ outputs!(
     Control,
     CurrentsResult,
     ForwardKinematics,
+    Coils,
+    Limits,
     Margins,
 );
