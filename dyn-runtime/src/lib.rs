@@ -126,6 +126,7 @@ pub mod current;
 pub mod float;
 pub mod lanes;
 pub mod parameter;
+pub mod rotation_vector;
 pub mod solve;
 pub mod triple;
 pub mod ups;

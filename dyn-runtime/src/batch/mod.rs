@@ -48,7 +48,6 @@ mod column;
 mod dynamics;
 mod matrices;
 mod models;
-mod rotation;
 mod simulate;
 mod states;
 mod step;
