@@ -119,6 +119,8 @@ mod newton;
 mod real;
 mod state;
 mod trigonometry;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub mod angles;
 pub mod batch;

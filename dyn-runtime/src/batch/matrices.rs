@@ -3,7 +3,6 @@
 use super::models::Models;
 use super::states::{finite, reached, settle};
 use super::{ColumnMut, LengthError, States, Status};
-use crate::error::Input;
 use crate::kernels::{RodAlignment, generic};
 use crate::lanes::{InLanes, Kernel, Lanes, Number};
 
@@ -111,16 +110,7 @@ where
             let finite = finite(coriolis_p.as_flattened()) & finite(coriolis_b.as_flattened());
             let kept = settle::<T>(&mut status[first..], reached & finite, finite, |lane| {
                 let state = input + lane;
-                states
-                    .examined(
-                        models.of(state),
-                        state,
-                        &[
-                            (Input::BaseVelocity, states.base.velocity.at(state)),
-                            (Input::PlatformVelocity, states.platform.velocity.at(state)),
-                        ],
-                    )
-                    .err()
+                states.examined(models.of(state), state, &[]).err()
             });
             matrices.mass_matrix_p.store_matrix(first, &mass_p, kept);
             matrices.coriolis_matrix_p.store_matrix(first, &coriolis_p, kept);
@@ -132,7 +122,6 @@ where
     }
 }
 
-#[cfg(feature = "rayon")]
 impl<M, S: Number> super::Job<S> for Matrices<'_, M, S>
 where
     M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::Matrices + Sync,
@@ -141,6 +130,13 @@ where
         self.status.len()
     }
 
+    fn check(&self, count: usize) -> Result<(), LengthError> {
+        self.models.check(count)?;
+        self.states.check(count)?;
+        self.matrices.check(count)
+    }
+
+    #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self) {
         let (matrices, matrices_after) = self.matrices.split(state);
         let (status, status_after) = self.status.split_at_mut(state);
