@@ -35,30 +35,27 @@ impl<S: Number> MatricesMut<'_, S> {
 
     #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self) {
-        let (mass_matrix_p, mass_p_after) = self.mass_matrix_p.split(state);
-        let (coriolis_matrix_p, coriolis_p_after) = self.coriolis_matrix_p.split(state);
-        let (jacobian_dp, jacobian_p_after) = self.jacobian_dp.split(state);
-        let (mass_matrix_b, mass_b_after) = self.mass_matrix_b.split(state);
-        let (coriolis_matrix_b, coriolis_b_after) = self.coriolis_matrix_b.split(state);
-        let (jacobian_db, jacobian_b_after) = self.jacobian_db.split(state);
-        (
-            Self {
-                mass_matrix_p,
-                coriolis_matrix_p,
-                jacobian_dp,
-                mass_matrix_b,
-                coriolis_matrix_b,
-                jacobian_db,
-            },
-            Self {
-                mass_matrix_p: mass_p_after,
-                coriolis_matrix_p: coriolis_p_after,
-                jacobian_dp: jacobian_p_after,
-                mass_matrix_b: mass_b_after,
-                coriolis_matrix_b: coriolis_b_after,
-                jacobian_db: jacobian_b_after,
-            },
-        )
+        let Self {
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        } = self;
+        let columns =
+            [mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db];
+        let [a, b, c, d, e, f] = columns.map(|column| column.split(state));
+        ([a.0, b.0, c.0, d.0, e.0, f.0].into(), [a.1, b.1, c.1, d.1, e.1, f.1].into())
+    }
+}
+
+/// M_p, C_p, J_dp, M_b, C_b, J_db, in this order.
+impl<'a, S> From<[ColumnMut<'a, S, 36>; 6]> for MatricesMut<'a, S> {
+    fn from(columns: [ColumnMut<'a, S, 36>; 6]) -> Self {
+        let [mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db] =
+            columns;
+        Self { mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db }
     }
 }
 
