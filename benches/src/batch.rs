@@ -2,9 +2,7 @@
 
 use std::hint::black_box;
 
-use dyn_runtime::batch::{
-    BaseColumns, Batch, Column, ColumnMut, MatricesMut, PlatformColumns, States as Columns, Status,
-};
+use dyn_runtime::batch::{BaseColumns, Batch, Column, ColumnMut, PlatformColumns, States as Columns, Status};
 
 use crate::model::Baked;
 use crate::states::{Inputs, States};
@@ -71,15 +69,7 @@ pub fn visit(function: &str, states: &States, with: impl FnOnce(&mut dyn FnMut()
             black_box(&mut six);
         }),
         "matrices" => with(&mut || {
-            let [a, b, c, d, e, f] = matrices.each_mut().map(|numbers| ColumnMut::component_major(numbers));
-            let out = MatricesMut {
-                mass_matrix_p: a,
-                coriolis_matrix_p: b,
-                jacobian_dp: c,
-                mass_matrix_b: d,
-                coriolis_matrix_b: e,
-                jacobian_db: f,
-            };
+            let out = matrices.each_mut().map(|numbers| ColumnMut::component_major(numbers)).into();
             black_box(&batch).matrices(&columns, out, &mut status).expect(LENGTHS);
             black_box(&mut matrices);
         }),

@@ -58,6 +58,8 @@ enum dyn_status
   DYN_STATUS_BEYOND_LIMIT = 14,
   // A reason that this version of the interface has no status for.
   DYN_STATUS_OTHER = 15,
+  // The model does not carry what was asked for: the platform file does not give it, or parameters come at run time.
+  DYN_STATUS_NOT_IN_MODEL = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -390,64 +392,6 @@ typedef struct dyn_forward_kinematics_result {
   uint32_t iterations;
 } dyn_forward_kinematics_result;
 
-// What actuators and joints may do. INFINITY is no limit (for minima -INFINITY).
-typedef struct dyn_limits {
-  // Set to sizeof(dyn_limits).
-  size_t struct_size;
-  // Shortest d, m.
-  dyn_real minimum_length[6];
-  // Longest d, m.
-  dyn_real maximum_length[6];
-  // Highest |d'|, m/s.
-  dyn_real maximum_velocity[6];
-  // Largest |F|, N.
-  dyn_real maximum_force[6];
-  // Largest angle between a rod and its direction at home, both in axes of B, rad.
-  dyn_real maximum_hooke_joint_angle[6];
-  // Largest angle between a rod and its direction at home, both in axes of P, rad.
-  dyn_real maximum_platform_joint_angle[6];
-  // Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
-  dyn_real home_direction_in_base[6][3];
-  // Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
-  dyn_real home_direction_in_platform[6][3];
-  // Least conditioning of J_dp, 0 to 1.
-  dyn_real minimum_condition_bound;
-} dyn_limits;
-
-// The least margin of every quantity.
-typedef struct dyn_monitor_result {
-  // Set to sizeof(dyn_monitor_result) before the call.
-  size_t struct_size;
-  // Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
-  dyn_real margin[6];
-  // The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
-  int32_t leg[6];
-} dyn_monitor_result;
-
-// The voice coils of the six actuators.
-typedef struct dyn_voice_coils {
-  // Set to sizeof(dyn_voice_coils).
-  size_t struct_size;
-  // Force per current, N/A; not 0.
-  dyn_real force_constant[6];
-  // Largest current either way, A; INFINITY is no limit.
-  dyn_real maximum_current[6];
-} dyn_voice_coils;
-
-// Currents for wanted forces.
-typedef struct dyn_currents_result {
-  // Set to sizeof(dyn_currents_result) before the call.
-  size_t struct_size;
-  // Current of each coil, A, never beyond its limit.
-  dyn_real current[6];
-  // The forces that they make, N.
-  dyn_real actuator_force[6];
-  // Share of the wanted forces that is left, the same for all six; 1 without saturation.
-  dyn_real factor;
-  // The leg whose coil is at its limit, 0 to 5; -1 without saturation.
-  int32_t saturated_leg;
-} dyn_currents_result;
-
 // Where the legs are and how they move; vectors in O.
 typedef struct dyn_leg_kinematics_result {
   // Set to sizeof(dyn_leg_kinematics_result) before the call.
@@ -560,6 +504,64 @@ typedef struct dyn_energy_result {
   dyn_real potential_energy;
 } dyn_energy_result;
 
+// What actuators and joints may do. INFINITY is no limit (for minima -INFINITY).
+typedef struct dyn_limits {
+  // Set to sizeof(dyn_limits).
+  size_t struct_size;
+  // Shortest d, m.
+  dyn_real minimum_length[6];
+  // Longest d, m.
+  dyn_real maximum_length[6];
+  // Highest |d'|, m/s.
+  dyn_real maximum_velocity[6];
+  // Largest |F|, N.
+  dyn_real maximum_force[6];
+  // Largest angle between a rod and its direction at home, both in axes of B, rad.
+  dyn_real maximum_hooke_joint_angle[6];
+  // Largest angle between a rod and its direction at home, both in axes of P, rad.
+  dyn_real maximum_platform_joint_angle[6];
+  // Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
+  dyn_real home_direction_in_base[6][3];
+  // Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
+  dyn_real home_direction_in_platform[6][3];
+  // Least conditioning of J_dp, 0 to 1.
+  dyn_real minimum_condition_bound;
+} dyn_limits;
+
+// The voice coils of the six actuators.
+typedef struct dyn_voice_coils {
+  // Set to sizeof(dyn_voice_coils).
+  size_t struct_size;
+  // Force per current, N/A; not 0.
+  dyn_real force_constant[6];
+  // Largest current either way, A; INFINITY is no limit.
+  dyn_real maximum_current[6];
+} dyn_voice_coils;
+
+// The least margin of every quantity.
+typedef struct dyn_monitor_result {
+  // Set to sizeof(dyn_monitor_result) before the call.
+  size_t struct_size;
+  // Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
+  dyn_real margin[6];
+  // The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
+  int32_t leg[6];
+} dyn_monitor_result;
+
+// Currents for wanted forces.
+typedef struct dyn_currents_result {
+  // Set to sizeof(dyn_currents_result) before the call.
+  size_t struct_size;
+  // Current of each coil, A, never beyond its limit.
+  dyn_real current[6];
+  // The forces that they make, N.
+  dyn_real actuator_force[6];
+  // Share of the wanted forces that is left, the same for all six; 1 without saturation.
+  dyn_real factor;
+  // The leg whose coil is at its limit, 0 to 5; -1 without saturation.
+  int32_t saturated_leg;
+} dyn_currents_result;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -600,28 +602,6 @@ dyn_status dyn_platform_velocity(const struct dyn_model *model,
                                  const dyn_real *actuator_velocity,
                                  dyn_real (*velocity)[6],
                                  struct dyn_info *info);
-
-// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
-// beyond its limits is no error here: see dyn_check_limits.
-dyn_status dyn_monitor(const struct dyn_model *model,
-                       const struct dyn_inputs *inputs,
-                       const struct dyn_limits *limits,
-                       struct dyn_monitor_result *result,
-                       struct dyn_info *info);
-
-// DYN_STATUS_BEYOND_LIMIT for the first quantity that is beyond its limit: `info.quantity` and `info.leg` say which,
-// `info.value` is the margin, negative. Depends on poses, velocities and `actuator_force`.
-dyn_status dyn_check_limits(const struct dyn_model *model,
-                            const struct dyn_inputs *inputs,
-                            const struct dyn_limits *limits,
-                            struct dyn_info *info);
-
-// Currents for wanted forces, N. Where one coil would be beyond its limit, all six forces are scaled by one factor, so that
-// the wrench on the platform keeps its direction; this is no error, `result.saturated_leg` tells.
-dyn_status dyn_currents(const struct dyn_voice_coils *coils,
-                        const dyn_real *actuator_force,
-                        struct dyn_currents_result *result,
-                        struct dyn_info *info);
 
 // (u.a)^2 of each leg: 1 where the rod lies along its actuator, 0 where it is perpendicular, negative out of reach (which is no
 // error here). Depends on the poses.
@@ -718,6 +698,45 @@ dyn_status dyn_energy(const struct dyn_model *model,
                       struct dyn_energy_result *result,
                       struct dyn_info *info);
 
+// What the baked model's platform file says that actuators and joints may do, and the directions of the rods at home, for
+// dyn_monitor and dyn_check_limits; what it does not limit is INFINITY (minima -INFINITY), to be filled in where wanted.
+//
+// DYN_STATUS_NOT_IN_MODEL for models with parameters at run time, which no platform file is behind.
+dyn_status dyn_model_limits(const struct dyn_model *model,
+                            struct dyn_limits *limits,
+                            struct dyn_info *info);
+
+// The voice coils of the baked model's platform file, for dyn_currents: force constants, and the currents of the largest
+// forces, INFINITY for legs without a largest force.
+//
+// DYN_STATUS_NOT_IN_MODEL where the platform file does not give all six force constants, and for models with parameters at
+// run time.
+dyn_status dyn_model_voice_coils(const struct dyn_model *model,
+                                 struct dyn_voice_coils *coils,
+                                 struct dyn_info *info);
+
+// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
+// beyond its limits is no error here: see dyn_check_limits.
+dyn_status dyn_monitor(const struct dyn_model *model,
+                       const struct dyn_inputs *inputs,
+                       const struct dyn_limits *limits,
+                       struct dyn_monitor_result *result,
+                       struct dyn_info *info);
+
+// DYN_STATUS_BEYOND_LIMIT for the first quantity that is beyond its limit: `info.quantity` and `info.leg` say which,
+// `info.value` is the margin, negative. Depends on poses, velocities and `actuator_force`.
+dyn_status dyn_check_limits(const struct dyn_model *model,
+                            const struct dyn_inputs *inputs,
+                            const struct dyn_limits *limits,
+                            struct dyn_info *info);
+
+// Currents for wanted forces, N. Where one coil would be beyond its limit, all six forces are scaled by one factor, so that
+// the wrench on the platform keeps its direction; this is no error, `result.saturated_leg` tells.
+dyn_status dyn_currents(const struct dyn_voice_coils *coils,
+                        const dyn_real *actuator_force,
+                        struct dyn_currents_result *result,
+                        struct dyn_info *info);
+
 // Checks that the parameters of a model are physical: once, before the first call. Calls do not look at them; they find
 // out what makes their own results impossible, and compute nonsense from the rest, such as a negative mass.
 dyn_status dyn_check_model(const struct dyn_model *model,
@@ -731,7 +750,10 @@ uint8_t dyn_control_case(size_t index);
 
 // Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 //
-// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |) if its norm is not 1.
+// What rounding left of the norm (single precision is good enough) is divided out: the matrix is orthonormal.
+//
+// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |, `info.limit` how much is forgiven) if
+// its norm is not 1.
 dyn_status dyn_rotation_from_quaternion(const dyn_real *quaternion,
                                         dyn_real (*rotation)[3][3],
                                         struct dyn_info *info);

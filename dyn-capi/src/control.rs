@@ -1,17 +1,15 @@
-//! The calls that a control loop is made of: pose from lengths, everything for a cycle, what the base feels, limits, currents.
+//! The calls that a control loop is made of: pose from lengths, everything for a cycle, what the base feels.
 
 use core::mem::size_of;
 
-use dyn_runtime::current::{Currents, VoiceCoils};
 use dyn_runtime::nalgebra::Vector6;
-use dyn_runtime::{Margin, Monitor};
 
 use crate::inputs::Inputs;
 use crate::model::{Model, with_hexapod};
 use crate::outputs::rows;
 use crate::pointers::{answer, array, convert, structure};
 use crate::real::Real;
-use crate::status::{Info, Refusal, Status};
+use crate::status::{Info, Status};
 
 /// What a controller needs in every cycle, from one shared evaluation.
 #[repr(C)]
@@ -47,90 +45,6 @@ pub struct ForwardKinematics {
     pub residual: Real,
     /// Newton steps that led there.
     pub iterations: u32,
-}
-
-/// What actuators and joints may do. INFINITY is no limit (for minima -INFINITY).
-#[repr(C)]
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Limits {
-    /// Set to sizeof(dyn_limits).
-    pub struct_size: usize,
-    /// Shortest d, m.
-    pub minimum_length: [Real; 6],
-    /// Longest d, m.
-    pub maximum_length: [Real; 6],
-    /// Highest |d'|, m/s.
-    pub maximum_velocity: [Real; 6],
-    /// Largest |F|, N.
-    pub maximum_force: [Real; 6],
-    /// Largest angle between a rod and its direction at home, both in axes of B, rad.
-    pub maximum_hooke_joint_angle: [Real; 6],
-    /// Largest angle between a rod and its direction at home, both in axes of P, rad.
-    pub maximum_platform_joint_angle: [Real; 6],
-    /// Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
-    pub home_direction_in_base: [[Real; 3]; 6],
-    /// Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
-    pub home_direction_in_platform: [[Real; 3]; 6],
-    /// Least conditioning of J_dp, 0 to 1.
-    pub minimum_condition_bound: Real,
-}
-
-/// Quantities with a limit: indices of `margin` and `leg` in dyn_monitor_result.
-#[repr(i32)]
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Quantity {
-    /// d, m.
-    ActuatorLength = 0,
-    /// d', m/s.
-    ActuatorVelocity = 1,
-    /// F, N.
-    ActuatorForce = 2,
-    /// Angle at the Hooke joint, rad.
-    HookeJointAngle = 3,
-    /// Angle at the platform joint, rad.
-    PlatformJointAngle = 4,
-    /// Conditioning of J_dp.
-    Conditioning = 5,
-}
-
-/// The least margin of every quantity.
-#[repr(C)]
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Margins {
-    /// Set to sizeof(dyn_monitor_result) before the call.
-    pub struct_size: usize,
-    /// Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
-    pub margin: [Real; 6],
-    /// The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
-    pub leg: [i32; 6],
-}
-
-/// The voice coils of the six actuators.
-#[repr(C)]
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Coils {
-    /// Set to sizeof(dyn_voice_coils).
-    pub struct_size: usize,
-    /// Force per current, N/A; not 0.
-    pub force_constant: [Real; 6],
-    /// Largest current either way, A; INFINITY is no limit.
-    pub maximum_current: [Real; 6],
-}
-
-/// Currents for wanted forces.
-#[repr(C)]
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct CurrentsResult {
-    /// Set to sizeof(dyn_currents_result) before the call.
-    pub struct_size: usize,
-    /// Current of each coil, A, never beyond its limit.
-    pub current: [Real; 6],
-    /// The forces that they make, N.
-    pub actuator_force: [Real; 6],
-    /// Share of the wanted forces that is left, the same for all six; 1 without saturation.
-    pub factor: Real,
-    /// The leg whose coil is at its limit, 0 to 5; -1 without saturation.
-    pub saturated_leg: i32,
 }
 
 /// Lengths, rates, J_dp, M_p, bias and the forces for `platform_acceleration`, in one call that costs less than twice
@@ -261,68 +175,6 @@ pub unsafe extern "C" fn dyn_platform_velocity(
     }
 }
 
-/// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
-/// beyond its limits is no error here: see dyn_check_limits.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn dyn_monitor(
-    model: *const Model,
-    inputs: *const Inputs,
-    limits: *const Limits,
-    result: *mut Margins,
-    info: *mut Info,
-) -> Status {
-    // SAFETY: the caller keeps what the crate says.
-    unsafe { convert(result, info, || Ok(monitor(model, inputs, limits)?.into())) }
-}
-
-/// DYN_STATUS_BEYOND_LIMIT for the first quantity that is beyond its limit: `info.quantity` and `info.leg` say which,
-/// `info.value` is the margin, negative. Depends on poses, velocities and `actuator_force`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn dyn_check_limits(
-    model: *const Model,
-    inputs: *const Inputs,
-    limits: *const Limits,
-    info: *mut Info,
-) -> Status {
-    // SAFETY: the caller keeps what the crate says.
-    unsafe { crate::pointers::explain(info, || Ok(monitor(model, inputs, limits)?.check()?)) }
-}
-
-/// # Safety
-/// As the crate says.
-unsafe fn monitor(
-    model: *const Model,
-    inputs: *const Inputs,
-    limits: *const Limits,
-) -> Result<Monitor<Real>, Refusal> {
-    // SAFETY: passed on to the caller.
-    let (platform, s, limits): (_, crate::inputs::States, dyn_runtime::Limits<Real>) =
-        unsafe { (structure(model)?.platform()?, structure(inputs)?.into(), structure(limits)?.into()) };
-    Ok(with_hexapod!(&platform, |hexapod| hexapod.monitor(&s.base, &s.platform, &s.actuator_force, &limits))?)
-}
-
-/// Currents for wanted forces, N. Where one coil would be beyond its limit, all six forces are scaled by one factor, so that
-/// the wrench on the platform keeps its direction; this is no error, `result.saturated_leg` tells.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn dyn_currents(
-    coils: *const Coils,
-    actuator_force: *const Real,
-    result: *mut CurrentsResult,
-    info: *mut Info,
-) -> Status {
-    // SAFETY: the caller keeps what the crate says.
-    unsafe {
-        convert(result, info, || {
-            let coils = structure(coils)?;
-            let coils = VoiceCoils {
-                force_constant_n_per_a: coils.force_constant,
-                maximum_current_a: coils.maximum_current,
-            };
-            Ok(coils.currents(&Vector6::from(array::<6>(actuator_force)?))?.into())
-        })
-    }
-}
-
 impl From<dyn_runtime::Control<Real>> for Control {
     fn from(result: dyn_runtime::Control<Real>) -> Self {
         Self {
@@ -345,58 +197,6 @@ impl From<dyn_runtime::ForwardKinematics<Real>> for ForwardKinematics {
             platform_rotation: result.pose.rotation.matrix().transpose().into(),
             residual: result.residual_m,
             iterations: result.iterations,
-        }
-    }
-}
-
-impl From<&Limits> for dyn_runtime::Limits<Real> {
-    fn from(limits: &Limits) -> Self {
-        Self {
-            minimum_length_m: limits.minimum_length,
-            maximum_length_m: limits.maximum_length,
-            maximum_velocity_m_s: limits.maximum_velocity,
-            maximum_force_n: limits.maximum_force,
-            maximum_hooke_joint_angle_rad: limits.maximum_hooke_joint_angle,
-            maximum_platform_joint_angle_rad: limits.maximum_platform_joint_angle,
-            home_direction_in_base: limits.home_direction_in_base,
-            home_direction_in_platform: limits.home_direction_in_platform,
-            minimum_condition_bound: limits.minimum_condition_bound,
-        }
-    }
-}
-
-impl From<dyn_runtime::Quantity> for Quantity {
-    fn from(quantity: dyn_runtime::Quantity) -> Self {
-        match quantity {
-            dyn_runtime::Quantity::ActuatorLength => Self::ActuatorLength,
-            dyn_runtime::Quantity::ActuatorVelocity => Self::ActuatorVelocity,
-            dyn_runtime::Quantity::ActuatorForce => Self::ActuatorForce,
-            dyn_runtime::Quantity::HookeJointAngle => Self::HookeJointAngle,
-            dyn_runtime::Quantity::PlatformJointAngle => Self::PlatformJointAngle,
-            dyn_runtime::Quantity::Conditioning => Self::Conditioning,
-        }
-    }
-}
-
-impl From<Monitor<Real>> for Margins {
-    fn from(monitor: Monitor<Real>) -> Self {
-        // Margins stand in the order of the quantities.
-        Self {
-            struct_size: size_of::<Self>(),
-            margin: monitor.margins.map(|Margin { margin, .. }| margin),
-            leg: monitor.margins.map(|Margin { leg, .. }| leg.map_or(-1, |leg| leg as i32)),
-        }
-    }
-}
-
-impl From<Currents<Real>> for CurrentsResult {
-    fn from(currents: Currents<Real>) -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            current: currents.current_a.into(),
-            actuator_force: currents.actuator_force_n.into(),
-            factor: currents.saturation.map_or(1.0, |saturation| saturation.factor),
-            saturated_leg: currents.saturation.map_or(-1, |saturation| saturation.leg as i32),
         }
     }
 }

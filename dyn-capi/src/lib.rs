@@ -22,6 +22,7 @@
 //! | `model`, `parameters`, `inputs`, `outputs` | structs, and what the runtime makes of them |
 //! | `pointers` | the border: the only module that follows pointers |
 //! | `control` | the calls that a control loop is made of |
+//! | `limits` | the calls about what actuators and joints may do |
 //! | `dynamics` | the other calls about a model, one row each |
 //! | `rotations` | the calls about rotations and angles |
 //! | `panic` | the handler of libraries without `std` |
@@ -41,6 +42,7 @@ extern crate std;
 mod control;
 mod dynamics;
 mod inputs;
+mod limits;
 mod model;
 mod outputs;
 #[cfg(all(feature = "panic-handler", not(feature = "hosted")))]
@@ -54,6 +56,7 @@ mod status;
 pub use control::*;
 pub use dynamics::*;
 pub use inputs::Inputs;
+pub use limits::*;
 pub use model::{Model, ModelKind, dyn_baked_platform_name, dyn_check_model};
 pub use outputs::{
     CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,

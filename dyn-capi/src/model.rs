@@ -3,11 +3,14 @@
 use core::ffi::c_char;
 use core::marker::PhantomData;
 
+use dyn_runtime::Limits;
+use dyn_runtime::current::VoiceCoils;
 #[cfg(any(feature = "uhp", feature = "ups"))]
 use dyn_runtime::models;
 
 use crate::parameters::{UhpParameters, UpsParameters};
 use crate::pointers::{explain, structure};
+use crate::real::Real;
 use crate::status::{Info, Refusal, Status};
 
 #[cfg(not(feature = "own-platform"))]
@@ -107,6 +110,39 @@ impl Model {
                 Ok(Platform::Ups(unsafe { structure(self.ups)? }))
             }
             _ => Err(Refusal::of(Status::UnknownModel)),
+        }
+    }
+}
+
+/// Stands in for the function of a model whose platform file does not give all six force constants: where the model has its
+/// own `voice_coils`, that comes before a trait's.
+#[allow(dead_code)] // Not called where the model has its own.
+trait WithoutVoiceCoils {
+    fn voice_coils<T>() -> Option<VoiceCoils<T>> {
+        None
+    }
+}
+
+impl WithoutVoiceCoils for Baked {}
+
+impl Platform<'_> {
+    /// What the platform file says that actuators and joints may do; none is behind parameters at run time.
+    pub(crate) fn limits(&self) -> Option<Limits<Real>> {
+        match self {
+            Self::Baked(_) => Some(Baked::limits()),
+            #[cfg(any(feature = "uhp", feature = "ups"))]
+            _ => None,
+        }
+    }
+
+    /// The voice coils of the platform file, if it gives them.
+    pub(crate) fn voice_coils(&self) -> Option<VoiceCoils<Real>> {
+        match self {
+            // The coils of a model that has them, or what stands in for them.
+            #[allow(clippy::useless_conversion)]
+            Self::Baked(_) => Baked::voice_coils::<Real>().into(),
+            #[cfg(any(feature = "uhp", feature = "ups"))]
+            _ => None,
         }
     }
 }

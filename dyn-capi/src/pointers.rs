@@ -11,8 +11,9 @@ use core::mem::size_of;
 
 use dyn_runtime::Error;
 
-use crate::control::{Coils, Control, CurrentsResult, ForwardKinematics, Limits, Margins};
+use crate::control::{Control, ForwardKinematics};
 use crate::inputs::{Inputs, States};
+use crate::limits::{Coils, CurrentsResult, Limits, Margins};
 use crate::model::{Model, Platform};
 use crate::outputs::{
     CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
@@ -161,7 +162,7 @@ macro_rules! outputs {
     };
 }
 
-structures!(Inputs, Info, Model, UhpParameters, UpsParameters, Limits, Coils);
+structures!(Inputs, Info, Model, UhpParameters, UpsParameters);
 
 outputs!(
     CoriolisMatrices,
@@ -174,5 +175,7 @@ outputs!(
     Control,
     CurrentsResult,
     ForwardKinematics,
+    Coils,
+    Limits,
     Margins,
 );

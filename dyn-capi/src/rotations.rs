@@ -1,18 +1,18 @@
 //! Rotation matrices from what sensors and planners speak: unit quaternions and the paper's angles.
 
-use dyn_runtime::angles;
-use dyn_runtime::nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+use dyn_runtime::nalgebra::{Rotation3, Vector3};
+use dyn_runtime::{Pose, angles};
 
 use crate::pointers::{array, convert};
 use crate::real::Real;
 use crate::status::{Info, InputName, Refusal, Status};
 
-/// Largest `| |q|^2 - 1 |` that passes as a unit quaternion: as for rotation matrices.
-const MAX_QUATERNION_DEVIATION: Real = <Real as dyn_runtime::Real>::MAX_ROTATION_DEVIATION;
-
 /// Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 ///
-/// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |) if its norm is not 1.
+/// What rounding left of the norm (single precision is good enough) is divided out: the matrix is orthonormal.
+///
+/// DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |, `info.limit` how much is forgiven) if
+/// its norm is not 1.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dyn_rotation_from_quaternion(
     quaternion: *const Real,
@@ -22,17 +22,13 @@ pub unsafe extern "C" fn dyn_rotation_from_quaternion(
     // SAFETY: the caller keeps what the crate says.
     unsafe {
         convert(rotation, info, || {
-            let [w, x, y, z] = finite(array(quaternion)?, InputName::Quaternion)?;
-            let quaternion = Quaternion::new(w, x, y, z);
-            let deviation = (quaternion.norm_squared() - 1.0).abs();
-            if deviation.is_nan() || deviation > MAX_QUATERNION_DEVIATION {
-                return Err(Refusal {
-                    value: deviation,
-                    limit: MAX_QUATERNION_DEVIATION,
-                    ..Refusal::of_input(Status::NotARotation, InputName::Quaternion)
-                });
-            }
-            Ok(rows(&UnitQuaternion::new_unchecked(quaternion).to_rotation_matrix()))
+            let quaternion = finite(array(quaternion)?, InputName::Quaternion)?;
+            let pose = Pose::from_quaternion(Vector3::zeros(), quaternion).map_err(|defect| Refusal {
+                value: (defect.norm_squared as Real - 1.0).abs(),
+                limit: <Real as dyn_runtime::Real>::MAX_ROTATION_DEVIATION,
+                ..Refusal::of_input(Status::NotARotation, InputName::Quaternion)
+            })?;
+            Ok(rows(&pose.rotation))
         })
     }
 }

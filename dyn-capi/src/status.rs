@@ -6,7 +6,7 @@ use core::mem::size_of;
 use dyn_runtime::parameter::{ParameterError, ParameterProblem};
 use dyn_runtime::{Error, Input};
 
-use crate::control::Quantity;
+use crate::limits::Quantity;
 use crate::real::Real;
 
 /// How a call ended. With any status but DYN_STATUS_OK no output has been written.
@@ -47,6 +47,8 @@ pub enum Status {
     BeyondLimit = 14,
     /// A reason that this version of the interface has no status for.
     Other = 15,
+    /// The model does not carry what was asked for: the platform file does not give it, or parameters come at run time.
+    NotInModel = 16,
 }
 
 /// An input of a call or a parameter of a model, as `info.input` names it.
@@ -312,6 +314,10 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
         c"no pose found with these actuator lengths: start nearer to it, and check that the lengths are d in metres",
     ),
     (Status::BeyondLimit, c"a quantity is beyond its limit: bring the platform nearer to its home"),
+    (
+        Status::NotInModel,
+        c"the model does not carry this: give it in the platform file and bake that, or fill the struct in by hand",
+    ),
     (Status::Other, c"refused for a reason that this version of the interface has no status for"),
 ];
 

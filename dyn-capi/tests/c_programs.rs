@@ -86,33 +86,35 @@ fn documented_control_loop() {
     }
 }
 
-/// A library with a platform file of the user's: the vectors of that platform, by the baked model.
+/// A library with a platform file of the user's: the vectors of that platform, by the baked model; its limits and coils.
 #[test]
 #[ignore = "builds the library anew, some minutes: cargo test -p dyn-capi --test c_programs -- --ignored"]
 fn own_platform() {
     let scratch = tempfile::tempdir().unwrap();
     let root = folder().join("..").canonicalize().unwrap();
     let target = root.join("target/own-platform");
+    let platform = scratch.path().join("platform.toml");
+    let everything = fs::read_to_string(root.join("tests/platforms/everything.toml")).unwrap();
+    let limits = "[legs]\nmaximum_force_n = 100.0\nforce_constant_n_per_a = 40.0\n\n[payload]";
+    let limited = everything.replacen("[payload]", limits, 1);
+    assert_ne!(limited, everything);
+    fs::write(&platform, limited).unwrap();
     succeed(
         Command::new(env!("CARGO"))
             .args(["build", "--package", "dyn-capi", "--features", "own-platform", "--target-dir"])
             .arg(&target)
-            .env("DYN_PLATFORM", root.join("tests/platforms/everything.toml"))
+            .env("DYN_PLATFORM", &platform)
             .current_dir(&root),
     );
     let file = scratch.path().join("vectors.txt");
     fs::write(&file, records()).unwrap();
-    let path = scratch.path().join("vectors");
     let library = target.join("debug/libdyn_capi.a");
-    let source = folder().join("tests/c/vectors.c");
-    succeed(compiler().arg(source).arg("-o").arg(&path).arg(library).args(["-lm", "-lpthread", "-ldl"]));
-    succeed(program(&path).arg(&file));
-
-    let main = "#include <stdio.h>\n#include \"dyn_capi.h\"\nint main(void) { puts(dyn_baked_platform_name()); return 0; }\n";
-    let source = scratch.path().join("name.c");
-    fs::write(&source, main).unwrap();
-    let path = scratch.path().join("name");
-    let library = target.join("debug/libdyn_capi.a");
-    succeed(compiler().arg(source).arg("-o").arg(&path).arg(library).args(["-lm", "-lpthread", "-ldl"]));
-    assert_eq!(succeed(&mut program(&path)).stdout, b"everything\n");
+    let build = |name: &str| {
+        let (source, path) =
+            (folder().join("tests/c").join(name), scratch.path().join(name).with_extension(""));
+        succeed(compiler().arg(source).arg("-o").arg(&path).arg(&library).args(["-lm", "-lpthread", "-ldl"]));
+        path
+    };
+    succeed(program(&build("vectors.c")).arg(&file));
+    assert_eq!(succeed(&mut program(&build("own_platform.c"))).stdout, b"everything 100 40 2.5\n");
 }

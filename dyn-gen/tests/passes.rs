@@ -36,12 +36,17 @@ fn bake_replaces_parameters_and_folds() {
 
 #[test]
 fn what_cancels_up_to_rounding_is_baked_as_zero() {
+    // 3 * 0.1 is 5.6e-17 more than 0.3. Small numbers that do not cancel stay, however small.
     check(
         "bake",
-        "y = x * (p / 10 - 0.3)\nz = x * (p / 10 - 0.29999)",
+        "a = x * (p * 0.1 - 0.3)\nb = y * (p * 0.1 + (0 - 0.3))\nc = z * ((0 - 0.3) - (0 - p * 0.1))\n\
+         d = x * (p / 10 - 0.29999)\ne = x * (p * 0.00000000000000000001 - 0.00000000000000000001)",
         expect![[r#"
-            y = x * 0
-            z = x * 0.000010000000000010001
+            a = x * 0
+            b = 0 * y
+            c = 0 * z
+            d = x * 0.000010000000000010001
+            e = x * 0.000000000000000000019999999999999996
         "#]],
     );
 }
@@ -63,6 +68,38 @@ fn chain_begins_sums_of_products_with_the_odd_term() {
         "a = sqrt(sqrt(z)) + (x * y + u * v)",
         expect![[r#"
             a = sqrt(sqrt(z)) + ((x * y) + (u * v))
+        "#]],
+    );
+    // A quotient comes late too.
+    check(
+        "chain",
+        "a = 1 / z + (x * y + u * v)",
+        expect![[r#"
+            a = (1 / z) + ((x * y) + (u * v))
+        "#]],
+    );
+    // A product in front would leave one that no sum takes up, as before.
+    check(
+        "chain",
+        "a = x * y + (u * v + x * v)",
+        expect![[r#"
+            a = (x * y) + ((u * v) + (x * v))
+        "#]],
+    );
+    // Of two products the one known first is begun with.
+    check(
+        "chain",
+        "a = (sqrt(x) * y + u * v) + z",
+        expect![[r#"
+            a = (sqrt(x) * y) + ((u * v) + z)
+        "#]],
+    );
+    // There is no sum that begins with two negative terms.
+    check(
+        "chain",
+        "a = (sqrt(x) * y - u * v) - z",
+        expect![[r#"
+            a = ((sqrt(x) * y) - (u * v)) - z
         "#]],
     );
     check(

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time;
 
 use dyn_runtime::batch::{
-    BaseColumns, Batch, Column, ColumnMut, Instant, MatricesMut, PlatformColumns, Simulated, States, Status,
+    BaseColumns, Batch, Column, ColumnMut, Instant, PlatformColumns, Simulated, States, Status,
 };
 use dyn_runtime::kernels::{RodAlignment, generic};
 use dyn_runtime::lanes::{InLanes, Instructions, Number};
@@ -154,15 +154,7 @@ fn matrices(instructions: Instructions) {
     for (layout, by_component) in [("by component", true), ("by state", false)] {
         let states = inputs.states(by_component);
         let time = time(|| {
-            let [a, b, c, d, e, f] = matrices.each_mut().map(|matrices| output(matrices, by_component));
-            let out = MatricesMut {
-                mass_matrix_p: a,
-                coriolis_matrix_p: b,
-                jacobian_dp: c,
-                mass_matrix_b: d,
-                coriolis_matrix_b: e,
-                jacobian_db: f,
-            };
+            let out = matrices.each_mut().map(|matrices| output(matrices, by_component)).into();
             black_box(&batch).matrices(&states, out, &mut status).expect("lengths");
         });
         println!("{:8} baked, f64       {layout:12} matrices {time:6.1}", instructions.name());

@@ -17,6 +17,10 @@ use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Pose,
 /// Calls of one run, unless the first argument says otherwise (few, under valgrind).
 const CALLS: u32 = 200_000;
 
+/// The calls to which the others are compared.
+const UNCHECKED: &str = "inverse_dynamics, unchecked";
+const CHECKED: &str = "inverse_dynamics, checked";
+
 fn main() -> Result<(), Error> {
     let hexapod = Hexapod::new(Uhp2016);
     let base = BaseMotion {
@@ -62,116 +66,64 @@ fn main() -> Result<(), Error> {
     let [mut jacobian, mut mass] = [[[0.0; 6]; 6]; 2];
     let model = Uhp2016;
     // Results stay where they are written: moving them would be measured too.
-    let unchecked = time(|| {
-        let rb = black_box(&rb);
-        kernels::InverseDynamics::inverse_dynamics(
-            &model,
-            rb,
-            &b,
-            &vb,
-            &ab,
-            &rp,
-            &p,
-            &vp,
-            &ap,
-            &w,
-            &mut forces,
-        );
-        black_box(&forces);
-    });
-    let control = time(|| {
-        let rb = black_box(&rb);
-        kernels::Control::control(
-            &model,
-            rb,
-            &b,
-            &vb,
-            &ab,
-            &rp,
-            &p,
-            &vp,
-            &ap,
-            &w,
-            &mut d,
-            &mut rates,
-            &mut jacobian,
-            &mut mass,
-            &mut bias,
-            &mut forces,
-        );
-        black_box((&d, &rates, &jacobian, &mass, &bias, &forces));
-    });
-    let passive = time(|| {
-        let rb = black_box(&rb);
-        kernels::PassiveInverseDynamics::passive_inverse_dynamics(
-            &model,
-            rb,
-            &b,
-            &vb,
-            &ab,
-            &rp,
-            &p,
-            &vp,
-            &ap,
-            &vb,
-            &w,
-            &mut forces,
-        );
-        black_box(&forces);
-    });
-    let base_reaction = time(|| {
-        let rb = black_box(&rb);
-        kernels::BaseReaction::base_reaction(&model, rb, &b, &vb, &ab, &rp, &p, &vp, &ap, &w, &mut reaction);
-        black_box(&reaction);
-    });
-    let geometry = time(|| {
-        let rb = black_box(&rb);
-        kernels::ActuatorGeometry::actuator_geometry(
-            &model,
-            rb,
-            &b,
-            &rp,
-            &p,
-            &mut d,
-            &mut rates,
-            &mut jacobian,
-        );
-        black_box((&d, &rates, &jacobian));
-    });
-    let checked = time(|| {
-        let _ = black_box(hexapod.inverse_dynamics(black_box(&base), &platform, &acceleration, &wrench));
-    });
-    let control_checked = time(|| {
-        let _ = black_box(hexapod.control(black_box(&base), &platform, &acceleration, &wrench));
-    });
-    let forward_kinematics = time(|| {
-        let base = black_box(&base.pose);
-        let _ = black_box(hexapod.forward_kinematics(base, &legs.actuator_length_m, &near));
-    });
+    let found = format!("forward_kinematics, {} steps, checked", found.iterations);
     let (at, angles, quaternion) = (base.pose.position_m, [0.02, -0.01, 1.3], [0.5, -0.5, 0.5, 0.5]);
-    let from_angles = time(|| {
-        black_box(Pose::from_paper_angles(black_box(at), black_box(angles)));
-    });
-    let sines = time(|| {
-        black_box(black_box(angles).map(f64::sin_cos));
-    });
-    let from_quaternion = time(|| {
-        let _ = black_box(Pose::from_quaternion(black_box(at), black_box(quaternion)));
-    });
+    #[rustfmt::skip]
+    let costs = [
+        (UNCHECKED, time(|| {
+            let rb = black_box(&rb);
+            kernels::InverseDynamics::inverse_dynamics(&model, rb, &b, &vb, &ab, &rp, &p, &vp, &ap, &w, &mut forces);
+            black_box(&forces);
+        })),
+        ("control, unchecked", time(|| {
+            let rb = black_box(&rb);
+            kernels::Control::control(
+                &model, rb, &b, &vb, &ab, &rp, &p, &vp, &ap, &w,
+                &mut d, &mut rates, &mut jacobian, &mut mass, &mut bias, &mut forces,
+            );
+            black_box((&d, &rates, &jacobian, &mass, &bias, &forces));
+        })),
+        ("passive_inverse_dynamics, unchecked", time(|| {
+            let rb = black_box(&rb);
+            kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+                &model, rb, &b, &vb, &ab, &rp, &p, &vp, &ap, &vb, &w, &mut forces,
+            );
+            black_box(&forces);
+        })),
+        ("base_reaction, unchecked", time(|| {
+            let rb = black_box(&rb);
+            kernels::BaseReaction::base_reaction(&model, rb, &b, &vb, &ab, &rp, &p, &vp, &ap, &w, &mut reaction);
+            black_box(&reaction);
+        })),
+        ("actuator_geometry, unchecked", time(|| {
+            let rb = black_box(&rb);
+            kernels::ActuatorGeometry::actuator_geometry(&model, rb, &b, &rp, &p, &mut d, &mut rates, &mut jacobian);
+            black_box((&d, &rates, &jacobian));
+        })),
+        (CHECKED, time(|| {
+            let _ = black_box(hexapod.inverse_dynamics(black_box(&base), &platform, &acceleration, &wrench));
+        })),
+        ("control, checked", time(|| {
+            let _ = black_box(hexapod.control(black_box(&base), &platform, &acceleration, &wrench));
+        })),
+        (&found, time(|| {
+            let base = black_box(&base.pose);
+            let _ = black_box(hexapod.forward_kinematics(base, &legs.actuator_length_m, &near));
+        })),
+        ("Pose::from_paper_angles", time(|| {
+            black_box(Pose::from_paper_angles(black_box(at), black_box(angles)));
+        })),
+        ("sines and cosines of its angles, by std", time(|| {
+            black_box(black_box(angles).map(f64::sin_cos));
+        })),
+        ("Pose::from_quaternion", time(|| {
+            let _ = black_box(Pose::from_quaternion(black_box(at), black_box(quaternion)));
+        })),
+    ];
+    let of = |call: &str| costs.iter().find(|row| row.0 == call).map_or(f64::NAN, |row| row.1);
+    let (unchecked, checked) = (of(UNCHECKED), of(CHECKED));
     println!("{:<44} {:>8} {:>14} {:>14}", "call", "ns", "to unchecked", "to checked");
-    for (call, ns) in [
-        ("inverse_dynamics, unchecked", unchecked),
-        ("control, unchecked", control),
-        ("passive_inverse_dynamics, unchecked", passive),
-        ("base_reaction, unchecked", base_reaction),
-        ("actuator_geometry, unchecked", geometry),
-        ("inverse_dynamics, checked", checked),
-        ("control, checked", control_checked),
-        (&format!("forward_kinematics, {} steps, checked", found.iterations), forward_kinematics),
-        ("Pose::from_paper_angles", from_angles),
-        ("sines and cosines of its angles, by std", sines),
-        ("Pose::from_quaternion", from_quaternion),
-    ] {
+    for (call, ns) in costs {
         println!("{call:<44} {ns:>8.1} {:>14.2} {:>14.2}", ns / unchecked, ns / checked);
     }
     Ok(())

@@ -119,6 +119,8 @@ mod newton;
 mod real;
 mod state;
 mod trigonometry;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub mod angles;
 pub mod batch;
@@ -126,6 +128,7 @@ pub mod current;
 pub mod float;
 pub mod lanes;
 pub mod parameter;
+pub mod rotation_vector;
 pub mod solve;
 pub mod triple;
 pub mod ups;

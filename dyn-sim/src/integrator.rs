@@ -2,12 +2,11 @@
 //!
 //! The state is a pose (r, R) and a velocity `[r'; w]`, all in O coordinates. Munthe-Kaas' method with the classical
 //! tableau: within a step the rotation is `exp([phi]x) R_0`, the stages live in the vector space of phi, and R stays a
-//! rotation whatever the step. [`rotation_vector_rate`] keeps the two commutators that order 4 needs.
+//! rotation whatever the step. [`rate_within_step`] keeps the two commutators that order 4 needs.
 
 use dyn_runtime::nalgebra::Vector3;
+use dyn_runtime::rotation_vector::{self, orthonormalised, rate_within_step};
 use dyn_runtime::{Acceleration, PlatformState, Pose, Twist};
-
-use crate::rotation::{exponential, orthonormalised, rotation_vector_rate};
 
 /// Where in a step the acceleration is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +53,7 @@ fn rates<E>(
     let moved = increment.applied_to(start);
     let velocity = acceleration(&moved)?;
     let Twist { linear_m_s, angular_rad_s } = moved.velocity;
-    let rotation = rotation_vector_rate(&increment.rotation, &angular_rad_s);
+    let rotation = rate_within_step(&increment.rotation, &angular_rad_s);
     Ok(Rates { position: linear_m_s, rotation, velocity })
 }
 
@@ -97,7 +96,7 @@ impl Increment {
         PlatformState {
             pose: Pose {
                 position_m: start.pose.position_m + self.position,
-                rotation: exponential(&self.rotation) * start.pose.rotation,
+                rotation: rotation_vector::rotation(&self.rotation) * start.pose.rotation,
             },
             velocity: Twist {
                 linear_m_s: start.velocity.linear_m_s + self.linear,

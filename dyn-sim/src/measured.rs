@@ -7,10 +7,10 @@
 //! order within each sample interval.
 
 use dyn_runtime::nalgebra::{Rotation3, Vector3};
+use dyn_runtime::rotation_vector::{self, orthonormalised};
 use dyn_runtime::{Acceleration, Pose, Twist};
 
 use crate::motion::BodyMotion;
-use crate::rotation::{exponential, orthonormalised};
 
 /// Least number of samples: slopes need five, and a record of fewer is not one.
 pub const LEAST_SAMPLES: usize = 16;
@@ -64,10 +64,10 @@ impl Measured {
         });
         let mut measured = Self { mean, spacing_s: h, components, rotation: Vec::new() };
         let theta = measured.angular(0, 0.0, Component::displacement_at);
-        let mut rotation = exponential(&theta) * mean.rotation;
+        let mut rotation = rotation_vector::rotation(&theta) * mean.rotation;
         measured.rotation.push(rotation);
         for k in 0..record.acceleration.len() - 1 {
-            rotation = orthonormalised(&(exponential(&measured.turn(k, 1.0)) * rotation));
+            rotation = orthonormalised(&(rotation_vector::rotation(&measured.turn(k, 1.0)) * rotation));
             measured.rotation.push(rotation);
         }
         measured
@@ -88,7 +88,7 @@ impl Measured {
         BodyMotion {
             pose: Pose {
                 position_m: self.mean.position_m + linear(Component::displacement_at),
-                rotation: exponential(&self.turn(k, s)) * self.rotation[k],
+                rotation: rotation_vector::rotation(&self.turn(k, s)) * self.rotation[k],
             },
             velocity: Twist {
                 linear_m_s: linear(Component::velocity_at),

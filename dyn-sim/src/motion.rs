@@ -1,11 +1,11 @@
 //! Prescribed motion of a body: pose, velocity and acceleration at any time.
 
 use dyn_runtime::nalgebra::Vector3;
-use dyn_runtime::{Acceleration, BaseMotion, PlatformState, Pose, Twist};
+use dyn_runtime::{Acceleration, BaseMotion, PlatformState, Pose, Twist, rotation_vector};
 
 use crate::excitation::{self, Harmonic, Jet};
 use crate::measured::Measured;
-use crate::rotation::{angular_motion, exponential, from_rows, rows};
+use crate::rotation::{from_rows, rows};
 
 /// A body's motion at one time; O coordinates unless a motion is said to be relative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,11 +92,11 @@ impl Motion {
 
 /// Motion about a mean pose by displacement (m) and rotation vector (rad).
 fn about(mean: &Pose, linear: &Jet, phi: &Jet) -> BodyMotion {
-    let (angular_rad_s, angular_rad_s2) = angular_motion(&phi.value, &phi.rate, &phi.second);
+    let (angular_rad_s, angular_rad_s2) = rotation_vector::angular_motion(&phi.value, &phi.rate, &phi.second);
     BodyMotion {
         pose: Pose {
             position_m: mean.position_m + linear.value,
-            rotation: exponential(&phi.value) * mean.rotation,
+            rotation: rotation_vector::rotation(&phi.value) * mean.rotation,
         },
         velocity: Twist { linear_m_s: linear.rate, angular_rad_s },
         acceleration: Acceleration { linear_m_s2: linear.second, angular_rad_s2 },

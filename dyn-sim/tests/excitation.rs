@@ -8,7 +8,6 @@ use dyn_runtime::Pose;
 use dyn_runtime::nalgebra::{Matrix3, Vector6};
 use dyn_sim::measured::{Measured, Record};
 use dyn_sim::motion::{BodyMotion, Motion};
-use dyn_sim::rotation::cross_matrix;
 
 use common::{scenario, target};
 
@@ -28,7 +27,7 @@ fn mismatch(motion: &Motion, t: f64, d: f64) -> f64 {
         turning += (sample.pose.rotation.matrix() - pose.rotation.matrix()) * weight;
     }
     let linear = (velocity.fixed_rows::<3>(0) - v.linear_m_s).amax() / v.linear_m_s.amax();
-    let spin = cross_matrix(&v.angular_rad_s) * pose.rotation.matrix();
+    let spin = v.angular_rad_s.cross_matrix() * pose.rotation.matrix();
     let angular = (turning - spin).amax() / v.angular_rad_s.amax();
     let change = (acceleration - a.to_vector()).amax() / a.to_vector().amax();
     linear.max(angular).max(change)

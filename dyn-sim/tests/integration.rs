@@ -4,10 +4,9 @@ mod common;
 
 use dyn_runtime::Pose;
 use dyn_runtime::nalgebra::{Matrix3, Vector3, Vector6};
-use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, models::Uhp};
+use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, models::Uhp, rotation_vector};
 use dyn_sim::mechanism::{self, Mechanism, Model};
 use dyn_sim::motion::{BodyMotion, Motion};
-use dyn_sim::rotation::exponential;
 use dyn_sim::scenario::Scenario;
 use dyn_sim::simulate::{self, Drive, Grid};
 
@@ -64,7 +63,7 @@ fn undamped_free_vibration_keeps_its_energy() {
     let home = scenario.platform.home.position;
     let pose = Pose {
         position_m: Vector3::from(home) + Vector3::new(0.004, -0.003, 0.006),
-        rotation: exponential(&Vector3::new(0.03, 0.02, -0.05)),
+        rotation: rotation_vector::rotation(&Vector3::new(0.03, 0.02, -0.05)),
     };
     let samples = 2 * grid.steps + 1;
     let drive = Drive { grid, base: vec![base; samples], actuator_force_n: vec![Vector6::zeros(); samples] };

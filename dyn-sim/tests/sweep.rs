@@ -10,7 +10,7 @@ use dyn_sim::mechanism::{self, Mechanism};
 use dyn_sim::motion::BodyMotion;
 use dyn_sim::scenario::Steering;
 use dyn_sim::simulate::{Drive, forces_along, sample, simulate};
-use dyn_sim::sweep::{self, Sweep, Swept};
+use dyn_sim::sweep::{self, Found, Sweep, Swept, measures};
 
 const TOOL: &str = env!("CARGO_BIN_EXE_dyn-sim");
 
@@ -109,9 +109,33 @@ fn free_platforms_move_as_single_simulations_say() {
                 close(found.shortest_m[i], lengths.iter().copied().fold(f64::INFINITY, f64::min), "shortest");
                 close(found.longest_m[i], lengths.iter().copied().fold(0.0, f64::max), "longest");
                 close(found.force_n[i], force[i].abs(), "force");
+                let of_base = |step: usize| drive.base[2 * step].acceleration.to_vector()[i];
+                let square: f64 = counted.clone().map(|step| of_base(step) * of_base(step)).sum();
+                close(
+                    found.base_rms_acceleration[i],
+                    (square / counted.len() as f64).sqrt(),
+                    "rms of the base",
+                );
             }
+            let rms = &found.rms_acceleration;
+            let linear = norm(&rms[..3]);
+            close(measured("rms_linear_m_per_s2", &design.steering, found), linear, "linear");
+            close(measured("rms_angular_rad_per_s2", &design.steering, found), norm(&rms[3..]), "angular");
+            let of_base = norm(&found.base_rms_acceleration[..3]);
+            let transmissibility = measured("transmissibility_percent", &design.steering, found);
+            close(transmissibility, 100.0 * linear / of_base, "transmissibility");
         }
     }
+}
+
+fn norm(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A number of the table.
+fn measured(name: &str, steering: &Steering, found: &Found) -> f64 {
+    let measure = measures(steering).into_iter().find(|measure| measure.name == name).expect("a column");
+    (measure.of)(found)
 }
 
 fn length(single: &dyn Mechanism, base: &BaseMotion, platform: &PlatformState, leg: usize) -> f64 {
@@ -140,13 +164,149 @@ fn platforms_along_a_target_take_the_forces_of_single_calls() {
                 close(found.force_n[leg], forces.fold(0.0, f64::max), "force");
                 let lengths = (0..=grid.steps)
                     .map(|k| length(&*single, &drive.base[2 * k], &target[2 * k].as_platform(), leg));
-                close(found.longest_m[leg], lengths.fold(0.0, f64::max), "longest");
+                close(found.longest_m[leg], lengths.clone().fold(0.0, f64::max), "longest");
+                close(found.shortest_m[leg], lengths.fold(f64::INFINITY, f64::min), "shortest");
             }
+            let of_all = |name| measured(name, &scenario.steering, found);
+            let largest = |numbers: [f64; 6]| numbers.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            close(of_all("peak_force_n"), largest(found.force_n), "largest force");
+            close(of_all("longest_length_m"), largest(found.longest_m), "longest of all");
+            close(of_all("shortest_length_m"), -largest(found.shortest_m.map(|x| -x)), "shortest of all");
+            let travels = std::array::from_fn(|leg| found.longest_m[leg] - found.shortest_m[leg]);
+            close(of_all("travel_m"), largest(travels), "travel");
         }
         // What varies matters.
         let force = |k: usize| swept.found[k].as_ref().expect("computed").force_n;
         assert_ne!(force(0), force(10));
     }
+}
+
+/// Numbers are drawn from the whole of their range and from nowhere else.
+#[test]
+fn draws_fill_their_ranges() {
+    let values = "[[vary]]\nscenario = \"base.harmonic.0.frequency_hz\"\nvalues = [20.0, 30.0]\n";
+    let sweep = Bench::new(&format!("{MANY}{values}")).sweep();
+    let labels = sweep.labels();
+    let numbers = sweep.numbers();
+    let mut ranges = vec![(4.0, 8.0), (0.98 * 0.12, 1.02 * 0.12)];
+    ranges.extend([(0.95 * 21_555.9, 1.05 * 21_555.9); 6]);
+    ranges.extend([(0.0, 0.002), (20.0, 30.0)]);
+    assert_eq!(labels.len(), ranges.len(), "{labels:?}");
+    for (k, (label, (least, most))) in labels.iter().zip(ranges).enumerate() {
+        let drawn = || numbers.iter().map(|design| design[k]);
+        assert!(drawn().all(|number| (least..=most).contains(&number)), "{label}");
+        // Of 70 none in an outer fifth of the range happens once in six million times.
+        let fifth = 0.2 * (most - least);
+        assert!(drawn().any(|number| number < least + fifth), "{label}");
+        assert!(drawn().any(|number| number > most - fifth), "{label}");
+    }
+}
+
+/// A tolerance of a parameter is added to what another variation makes of it.
+#[test]
+fn tolerances_add_to_what_else_varies() {
+    let sweep = Bench::new(
+        "version = 1\nname = \"t\"\nscenario = \"free.toml\"\ndesigns = 3\n\
+         [[vary]]\nplatform = \"legs.axial_stiffness_n_per_m\"\nfrom = 10000.0\nto = 11000.0\n\
+         [[vary]]\nparameter = \"axial_stiffness\"\nabsolute = 50.0\n",
+    )
+    .sweep();
+    for numbers in sweep.numbers() {
+        let scenario = sweep.scenario_with(&numbers).expect("a sound scenario");
+        let stiffness = scenario.platform.parameter("axial_stiffness").expect("a parameter");
+        for (found, drawn) in stiffness.iter().zip(&numbers[1..]) {
+            close(*found, numbers[0] + (drawn - 21_555.9), "stiffness");
+        }
+    }
+}
+
+/// A leg that is too short, too long or too strong for the platform file's limits is named.
+#[test]
+fn limits_that_are_exceeded_are_named() {
+    let bench = Bench::new(
+        "version = 1\nname = \"t\"\nscenario = \"target.toml\"\n[[vary]]\nplatform = \"payload.mass_kg\"\nvalues = [6.0]\n",
+    );
+    let file = bench.0.path().join("uhp_2016.toml");
+    let unlimited = fs::read_to_string(&file).expect("a platform");
+    let exceeded = |limit: &str| {
+        fs::write(&file, unlimited.replacen("[legs]", &format!("[legs]\n{limit} "), 1)).expect("a file");
+        swept(&bench.sweep(), 1).found[0].as_ref().expect("computed").exceeded.clone()
+    };
+    assert_eq!(exceeded(""), None);
+    let found = swept(&bench.sweep(), 1).found[0].clone().expect("computed");
+    for (key, what, numbers, beyond) in [
+        ("minimum_length_m", "length", found.shortest_m, -1e-6),
+        ("maximum_length_m", "length", found.longest_m, 1e-6),
+        ("maximum_force_n", "force", found.force_n, 1e-6),
+    ] {
+        // Between the worst leg and the others, so that it alone exceeds the limit.
+        let (worst, most) = numbers.iter().enumerate().fold((0, numbers[0]), |worst, (leg, x)| {
+            if beyond * (x - worst.1) > 0.0 { (leg, *x) } else { worst }
+        });
+        let first = numbers.iter().position(|x| (x - most).abs() < 1e-9).expect("the worst");
+        assert!(worst >= first, "{key}: of two alike the first is named");
+        assert_eq!(exceeded(&format!("{key} = {}", most + beyond)), None, "{key}");
+        let named = exceeded(&format!("{key} = {}", most - beyond));
+        assert_eq!(named, Some(format!("{what} of leg {}", first + 1)), "{key}");
+    }
+}
+
+/// A design that cannot go on ends there; what came before is kept.
+#[test]
+fn designs_end_where_they_cannot_go_on() {
+    let bench = Bench::new(
+        "version = 1\nname = \"t\"\nscenario = \"target.toml\"\n\
+         [[vary]]\nscenario = \"target.harmonic.0.linear_m.0\"\nvalues = [0.5, 0.003]\n",
+    );
+    let sweep = bench.sweep();
+    let followed = swept(&sweep, 1);
+    let scenario = sweep.scenario_with(&followed.designs[0].0).expect("a sound scenario");
+    let (single, _) = mechanism::of_platform(&scenario.platform, false);
+    let Steering::Target(target) = &scenario.steering else { panic!("a target") };
+    let grid = scenario.grid;
+    let (base, target) = (sample(grid, &scenario.base, |_| {}), sample(grid, target, |_| {}));
+    let (drive, stop) = forces_along(&*single, grid, &base, &target, None, |_| {});
+    let stop = stop.expect("half a metre aside is out of reach");
+    let found = followed.found[0].as_ref().expect("computed");
+    let ending = found.ended.as_ref().expect("an end");
+    // A single call looks at half steps too.
+    assert!((0.0..=grid.step_s).contains(&(ending.time_s - stop.time_s)), "{ending:?} {}", stop.time_s);
+    let before = (ending.time_s / grid.step_s).round() as usize;
+    for leg in 0..6 {
+        let lengths =
+            (0..before).map(|k| length(&*single, &base[2 * k].as_base(), &target[2 * k].as_platform(), leg));
+        close(found.longest_m[leg], lengths.fold(0.0, f64::max), "longest");
+        let forces = drive.actuator_force_n.iter().step_by(2).take(before).map(|force| force[leg].abs());
+        close(found.force_n[leg], forces.fold(0.0, f64::max), "force");
+    }
+    assert_eq!(followed.found[1].as_ref().expect("computed").ended, None);
+
+    let bench = Bench::new(
+        "version = 1\nname = \"f\"\nscenario = \"free.toml\"\n\
+         [[vary]]\nscenario = \"free.actuator_force_n.0\"\nvalues = [9000.0, 30.0]\n",
+    );
+    let pushed = format!("{FREE}actuator_force_n = [30.0, 30.0, 30.0, 30.0, 30.0, 30.0]\n");
+    fs::write(bench.0.path().join("free.toml"), pushed).expect("a file");
+    let sweep = bench.sweep();
+    let flown = swept(&sweep, 1);
+    let scenario = sweep.scenario_with(&flown.designs[0].0).expect("a sound scenario");
+    let Steering::Free(start, force) = &scenario.steering else { panic!("nobody steers it") };
+    let single = mechanism::Model::with_gravity(mechanism::run_time_model(&scenario.platform));
+    let grid = scenario.grid;
+    let base: Vec<BaseMotion> =
+        sample(grid, &scenario.base, |_| {}).iter().map(BodyMotion::as_base).collect();
+    let drive = Drive { grid, actuator_force_n: vec![*force; base.len()], base };
+    let run = simulate(&single, &drive, start, None, |_| {});
+    let stop = run.stop.expect("9 kN push a leg out of reach");
+    let found = flown.found[0].as_ref().expect("computed");
+    let ending = found.ended.as_ref().expect("an end");
+    assert!((ending.time_s - stop.time_s).abs() <= 8.0 * grid.step_s, "{ending:?} {}", stop.time_s);
+    let longest = found.longest_m[0];
+    let before = (ending.time_s / grid.step_s).round() as usize;
+    let lengths = (0..before.min(run.series.time_s.len()))
+        .map(|step| length(&single, &drive.base[2 * step], &run.series.state(step), 0));
+    close(longest, lengths.fold(0.0, f64::max), "longest before the end");
+    assert_eq!(flown.found[1].as_ref().expect("computed").ended, None);
 }
 
 #[test]

@@ -146,6 +146,39 @@ static void currents(void)
     check(result.factor == 77, "no currents, no output");
 }
 
+/* Limits of the baked model are those of its platform file, which limits nothing and names no coils; others have no file. */
+static void of_the_model(void)
+{
+    dyn_inputs home = at(0, (dyn_real)0.382);
+    dyn_leg_kinematics_result legs = { .struct_size = sizeof legs };
+    dyn_model at_run_time = { .struct_size = sizeof at_run_time, .kind = DYN_MODEL_KIND_UHP };
+    dyn_uhp_parameters parameters = { .struct_size = sizeof parameters };
+    dyn_limits limits = { .struct_size = sizeof limits };
+    dyn_voice_coils coils = { .struct_size = sizeof coils, .force_constant = { 77 } };
+    dyn_info info = { .struct_size = sizeof info };
+
+    at_run_time.uhp = &parameters;
+    limits.maximum_force[0] = 77;
+    check(dyn_model_limits(&at_run_time, &limits, &info) == DYN_STATUS_NOT_IN_MODEL, "limits without a platform file");
+    check(limits.maximum_force[0] == 77, "no limits, no output");
+    check(dyn_model_limits(&model, NULL, &info) == DYN_STATUS_NULL_POINTER, "no place for limits");
+    check(dyn_model_limits(&model, &limits, &info) == DYN_STATUS_OK, "limits of the platform file");
+    check(limits.struct_size == sizeof limits, "the struct's size stays");
+    check(isinf((double)limits.maximum_force[0]) && limits.minimum_length[5] < -1, "nothing is limited");
+    check(dyn_leg_kinematics(&model, &home, &legs, &info) == DYN_STATUS_OK, "rods at home");
+    check(near(&limits.home_direction_in_base[0][0], &legs.rod_direction[0][0], 18), "their directions in the base");
+    check(near(&limits.home_direction_in_platform[0][0], &legs.rod_direction[0][0], 18), "and in the platform");
+    check(dyn_check_limits(&model, &home, &limits, &info) == DYN_STATUS_OK, "they are taken as they are");
+    limits.maximum_length[2] = (dyn_real)0.198;
+    check(dyn_check_limits(&model, &home, &limits, &info) == DYN_STATUS_BEYOND_LIMIT && info.leg == 2, "and can be added to");
+
+    check(dyn_model_voice_coils(&model, &coils, &info) == DYN_STATUS_NOT_IN_MODEL, "no coils in the platform file");
+    check(dyn_model_voice_coils(&at_run_time, &coils, &info) == DYN_STATUS_NOT_IN_MODEL, "coils without a platform file");
+    check(coils.force_constant[0] == 77, "no coils, no output");
+    coils.struct_size = 0;
+    check(dyn_model_voice_coils(&model, &coils, &info) == DYN_STATUS_WRONG_STRUCT_SIZE, "size of the coils");
+}
+
 /* At rest the base carries the weight; a reference velocity that is NaN is refused. */
 static void reaction(void)
 {
@@ -165,6 +198,7 @@ int main(void)
     forward_kinematics();
     limits();
     currents();
+    of_the_model();
     reaction();
     printf("%d failures\n", failures);
     return failures != 0;

@@ -20,6 +20,7 @@ int main(void)
     /* Lengths at home; the rates of a platform that turns with the base. */
     dyn_real length[6];
     dyn_inputs inputs = { .struct_size = sizeof inputs };
+    dyn_limits limits;
     dyn_real sum = 0, first;
     int i, failures = 0;
 
@@ -51,6 +52,13 @@ int main(void)
     for (i = 0; i < 3; i++) {
         failures += !(fabs((double)inputs.base_acceleration[i]) < 1e-5);
     }
+
+    /* Within the limits of the platform file, until conditioning must be perfect. */
+    failures += read_limits(&model, &limits, NULL) != DYN_STATUS_OK;
+    failures += set_platform(&model, &inputs, &loop.platform, length, at_rest, NULL) != DYN_STATUS_OK;
+    failures += dyn_check_limits(&model, &inputs, &limits, NULL) != DYN_STATUS_OK;
+    limits.minimum_condition_bound = 1;
+    failures += dyn_check_limits(&model, &inputs, &limits, NULL) != DYN_STATUS_BEYOND_LIMIT;
     printf("documented loop: %d failures\n", failures);
     return failures;
 }

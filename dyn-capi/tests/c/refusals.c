@@ -169,9 +169,22 @@ static void conversions(void)
     static const dyn_real spin[3] = { 1, 0, 0 };
     dyn_real quaternion[4] = { 1, 0, 0, 0 }, rotation[3][3], rates[3] = { UNTOUCHED }, angular_velocity[3];
     dyn_info info = { .struct_size = sizeof info };
+    dyn_real norm = 0;
+    int i;
 
     check(dyn_rotation_from_quaternion(quaternion, &rotation, &info) == DYN_STATUS_OK, "a unit quaternion");
     check(rotation[1][1] == 1 && rotation[0][1] == 0, "no rotation");
+    /* A half turn about an axis in the plane, with the norm that single precision leaves. */
+    quaternion[0] = 0;
+    quaternion[1] = (dyn_real)0.6 * (1 + (dyn_real)1e-7);
+    quaternion[2] = (dyn_real)0.8 * (1 + (dyn_real)1e-7);
+    check(dyn_rotation_from_quaternion(quaternion, &rotation, &info) == DYN_STATUS_OK, "rounded in single precision");
+    for (i = 0; i < 3; i++) {
+        norm += rotation[i][0] * rotation[i][0];
+    }
+    check(fabs((double)norm - 1) < (sizeof(dyn_real) == 8 ? 1e-15 : 1e-6), "the norm is divided out");
+    quaternion[0] = 1;
+    quaternion[2] = 0;
     quaternion[1] = 1;
     check(dyn_rotation_from_quaternion(quaternion, &rotation, &info) == DYN_STATUS_NOT_A_ROTATION, "not of norm 1");
     check(info.input == DYN_INPUT_QUATERNION && info.value == 1, "how far from norm 1");
@@ -185,7 +198,7 @@ static void texts(void)
 {
     int status;
 
-    for (status = DYN_STATUS_OK; status <= DYN_STATUS_OTHER; status++) {
+    for (status = DYN_STATUS_OK; status <= DYN_STATUS_NOT_IN_MODEL; status++) {
         check(strcmp(dyn_status_text(status), dyn_status_text(-1)) != 0, "every status has a text");
     }
     check(strcmp(dyn_status_text(1000), dyn_status_text(-1)) == 0, "other numbers have one too");

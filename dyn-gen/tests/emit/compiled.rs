@@ -1,125 +1,36 @@
 //! Emitted files compiled by rustc and run.
 
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use dyn_gen::graph::{Evaluator, Graph, Symbol};
+use serde_json::Value;
 
-/// The runtime crate as generated code sees it.
-const RUNTIME: &str = "
-mod float {
-    use std::ops::{Add, Div, Mul, Neg, Sub};
-    pub trait Scalar:
-        Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-    {
-        fn constant(value: f64) -> Self;
-        fn square_root(self) -> Self;
-        fn solve<const N: usize>(matrix: &[[Self; N]; N], rhs: &[Self; N]) -> [Self; N];
-    }
-    impl Scalar for f64 {
-        fn constant(value: f64) -> f64 { value }
-        fn square_root(self) -> f64 { self.sqrt() }
-        fn solve<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
-            crate::solve::by_elimination(matrix, rhs)
-        }
-    }
-    impl Scalar for f32 {
-        fn constant(value: f64) -> f32 { value as f32 }
-        fn square_root(self) -> f32 { self.sqrt() }
-        fn solve<const N: usize>(_: &[[f32; N]; N], _: &[f32; N]) -> [f32; N] { unimplemented!() }
-    }
-    pub fn sqrt<T: Scalar>(x: T) -> T { x.square_root() }
-    pub fn mul_add<T: Scalar>(a: T, b: T, c: T) -> T { a * b + c }
-    pub fn mul_sub<T: Scalar>(a: T, b: T, c: T) -> T { a * b - c }
-    pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T { c - a * b }
+/// The runtime crate as generated code sees it from inside, but for the kernel traits, which a test makes for itself.
+const RUNTIME: &str =
+    "pub use dyn_runtime::{Limits, Real, current, float, lanes, parameter, single_state, solve, triple};";
+
+/// The compiled runtime crate.
+fn runtime() -> &'static Path {
+    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let built = Command::new(env!("CARGO"))
+            .args(["build", "--quiet", "--package", "dyn-runtime", "--message-format", "json"])
+            .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+            .output()
+            .expect("cargo runs");
+        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        let messages = String::from_utf8(built.stdout).expect("JSON");
+        let mut files = messages.lines().filter_map(|line| {
+            let message: Value = serde_json::from_str(line).ok()?;
+            let is_runtime = message["target"]["name"] == "dyn_runtime";
+            is_runtime.then(|| message["filenames"][0].as_str().map(PathBuf::from))?
+        });
+        files.next().expect("a library")
+    })
 }
-mod triple {
-    use crate::float::Scalar;
-    pub trait Triple: Scalar {
-        type Lane: Scalar;
-        fn triple(lanes: [Self::Lane; 3]) -> Self;
-        fn splat(number: Self::Lane) -> Self;
-        fn lane(self, lane: usize) -> Self::Lane;
-        fn mul_add(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
-        fn mul_sub(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
-        fn neg_mul_add(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
-    }
-}
-/// As on a processor without registers for three numbers.
-#[allow(unused_macros)]
-macro_rules! single_state {
-    ($in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {
-        self::$flat($($input,)* $($output),*);
-    };
-}
-#[allow(unused_imports)]
-pub(crate) use single_state;
-mod limits {
-    pub trait Real: crate::float::Scalar {}
-    pub struct Limits<T> {
-        pub minimum_length_m: [T; 6],
-        pub maximum_length_m: [T; 6],
-        pub maximum_velocity_m_s: [T; 6],
-        pub maximum_force_n: [T; 6],
-        pub maximum_hooke_joint_angle_rad: [T; 6],
-        pub maximum_platform_joint_angle_rad: [T; 6],
-        pub home_direction_in_base: [[T; 3]; 6],
-        pub home_direction_in_platform: [[T; 3]; 6],
-        pub minimum_condition_bound: T,
-    }
-    impl<T: Real> Limits<T> {
-        pub fn none() -> Self { unreachable!() }
-    }
-}
-#[allow(unused_imports)]
-pub(crate) use limits::{Limits, Real};
-mod current {
-    pub struct VoiceCoils<T> {
-        pub force_constant_n_per_a: [T; 6],
-        pub maximum_current_a: [T; 6],
-    }
-}
-mod lanes {
-    pub trait Number: crate::float::Scalar + 'static {}
-    impl Number for f64 {}
-    impl Number for f32 {}
-    pub trait Lanes: crate::float::Scalar {
-        type Number: Number;
-        fn from_fn(number: impl FnMut(usize) -> Self::Number) -> Self;
-    }
-    pub trait Generic {
-        type Parameters<T: crate::float::Scalar>: Copy;
-    }
-    pub trait InLanes<S: Number>: Generic {
-        fn in_lanes<'a, T: Lanes<Number = S>>(of_lane: impl Fn(usize) -> &'a Self) -> Self::Parameters<T>
-        where
-            Self: 'a;
-    }
-}
-mod solve {
-    pub fn solve_general<T: crate::float::Scalar, const N: usize>(matrix: &[[T; N]; N], rhs: &[T; N]) -> [T; N] {
-        T::solve(matrix, rhs)
-    }
-    /// Gauss-Jordan with row exchanges; exact for the small integers the tests use.
-    pub fn by_elimination<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
-        let (mut a, mut x) = (*matrix, *rhs);
-        for k in 0..N {
-            let pivot = (k..N).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap();
-            a.swap(k, pivot);
-            x.swap(k, pivot);
-            for i in 0..N {
-                if i != k {
-                    let f = a[i][k] / a[k][k];
-                    for j in 0..N { a[i][j] -= f * a[k][j]; }
-                    x[i] -= f * x[k];
-                }
-            }
-        }
-        for k in 0..N { x[k] /= a[k][k]; }
-        x
-    }
-}
-";
 
 /// Runs every function of `file` through its kernel trait on every case and returns the outputs' elements in order.
 /// `cases[k]` holds one flat array per input of `graphs[k]`, parameters included.
@@ -145,11 +56,9 @@ pub fn run(
     let path = |name: &str| folder.path().join(name);
     std::fs::write(path("kernels.rs"), kernels).unwrap();
     std::fs::write(path("model.rs"), file).unwrap();
-    let checks = concat!(env!("CARGO_MANIFEST_DIR"), "/../dyn-runtime/src/parameter.rs");
-    std::fs::copy(checks, path("parameter.rs")).unwrap();
     let mut main = format!(
         "#![deny(warnings, missing_docs, unused_qualifications)]\n#![allow(dead_code)]\n//! Test.\n\
-         /// Traits.\n pub mod kernels;\n/// Parameters.\npub mod parameter;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
+         /// Traits.\n pub mod kernels;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
     );
     for (graph, cases) in graphs.iter().zip(cases) {
         for case in cases {
@@ -158,9 +67,12 @@ pub fn run(
     }
     main.push_str("}\n");
     std::fs::write(path("main.rs"), main).unwrap();
+    let library = runtime();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let compiled = Command::new(rustc)
-        .args(["--edition=2024", "main.rs", "-o", "program"])
+        .args(["--edition=2024", "main.rs", "-o", "program", "--extern"])
+        .arg(format!("dyn_runtime={}", library.display()))
+        .arg(format!("-Ldependency={}", library.with_file_name("deps").display()))
         .args(options)
         .current_dir(folder.path())
         .output()

@@ -4,5 +4,6 @@ mod bits;
 mod compiled;
 mod graphs;
 mod length;
+mod limits;
 mod run_time;
 mod text;

@@ -2,7 +2,7 @@
 
 use core::array;
 
-use super::LengthError;
+use super::{LengthError, check};
 use crate::lanes::{Components, ComponentsMut, Lanes, Number};
 
 /// One input of every state: N numbers per state. 3x3 rotations are nine numbers, row by row.
@@ -215,16 +215,4 @@ impl<S: Number> ColumnMut<'_, S, 36> {
 #[inline(always)]
 pub(super) fn all_lanes<T: Lanes>() -> u32 {
     u32::MAX >> (32 - T::COUNT)
-}
-
-/// The first length that differs.
-fn check<const K: usize>(
-    argument: &'static str,
-    expected: usize,
-    lengths: [usize; K],
-) -> Result<(), LengthError> {
-    match lengths.into_iter().find(|length| *length != expected) {
-        None => Ok(()),
-        Some(found) => Err(LengthError { argument, expected, found }),
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::models::Models;
 use super::states::{finite, reached, settle};
-use super::{Column, ColumnMut, States, Status};
+use super::{Column, ColumnMut, LengthError, States, Status};
 use crate::error::Input;
 use crate::kernels::{RodAlignment, generic};
 use crate::lanes::{InLanes, Kernel, Lanes, Number};
@@ -63,8 +63,6 @@ macro_rules! dynamics {
                                     (Input::BaseAcceleration, states.base.acceleration.at(state)),
                                     (Input::$input_name, $input.at(state)),
                                     (Input::ExternalWrench, external_wrench.at(state)),
-                                    (Input::BaseVelocity, states.base.velocity.at(state)),
-                                    (Input::PlatformVelocity, states.platform.velocity.at(state)),
                                 ],
                             )
                             .err()
@@ -74,7 +72,6 @@ macro_rules! dynamics {
             }
         }
 
-        #[cfg(feature = "rayon")]
         impl<M, S: Number> super::Job<S> for $kernel<'_, M, S>
         where
             M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::$kernel + Sync,
@@ -83,6 +80,15 @@ macro_rules! dynamics {
                 self.status.len()
             }
 
+            fn check(&self, count: usize) -> Result<(), LengthError> {
+                self.models.check(count)?;
+                self.states.check(count)?;
+                self.$input.check(stringify!($input), count)?;
+                self.external_wrench.check("external_wrench", count)?;
+                self.$output.check(stringify!($output), count)
+            }
+
+            #[cfg(feature = "rayon")]
             fn split(self, state: usize) -> (Self, Self) {
                 let ($output, after) = self.$output.split(state);
                 let (status, status_after) = self.status.split_at_mut(state);

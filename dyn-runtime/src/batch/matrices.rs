@@ -3,7 +3,6 @@
 use super::models::Models;
 use super::states::{finite, reached, settle};
 use super::{ColumnMut, LengthError, States, Status};
-use crate::error::Input;
 use crate::kernels::{RodAlignment, generic};
 use crate::lanes::{InLanes, Kernel, Lanes, Number};
 
@@ -36,30 +35,27 @@ impl<S: Number> MatricesMut<'_, S> {
 
     #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self) {
-        let (mass_matrix_p, mass_p_after) = self.mass_matrix_p.split(state);
-        let (coriolis_matrix_p, coriolis_p_after) = self.coriolis_matrix_p.split(state);
-        let (jacobian_dp, jacobian_p_after) = self.jacobian_dp.split(state);
-        let (mass_matrix_b, mass_b_after) = self.mass_matrix_b.split(state);
-        let (coriolis_matrix_b, coriolis_b_after) = self.coriolis_matrix_b.split(state);
-        let (jacobian_db, jacobian_b_after) = self.jacobian_db.split(state);
-        (
-            Self {
-                mass_matrix_p,
-                coriolis_matrix_p,
-                jacobian_dp,
-                mass_matrix_b,
-                coriolis_matrix_b,
-                jacobian_db,
-            },
-            Self {
-                mass_matrix_p: mass_p_after,
-                coriolis_matrix_p: coriolis_p_after,
-                jacobian_dp: jacobian_p_after,
-                mass_matrix_b: mass_b_after,
-                coriolis_matrix_b: coriolis_b_after,
-                jacobian_db: jacobian_b_after,
-            },
-        )
+        let Self {
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        } = self;
+        let columns =
+            [mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db];
+        let [a, b, c, d, e, f] = columns.map(|column| column.split(state));
+        ([a.0, b.0, c.0, d.0, e.0, f.0].into(), [a.1, b.1, c.1, d.1, e.1, f.1].into())
+    }
+}
+
+/// M_p, C_p, J_dp, M_b, C_b, J_db, in this order.
+impl<'a, S> From<[ColumnMut<'a, S, 36>; 6]> for MatricesMut<'a, S> {
+    fn from(columns: [ColumnMut<'a, S, 36>; 6]) -> Self {
+        let [mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db] =
+            columns;
+        Self { mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db }
     }
 }
 
@@ -111,16 +107,7 @@ where
             let finite = finite(coriolis_p.as_flattened()) & finite(coriolis_b.as_flattened());
             let kept = settle::<T>(&mut status[first..], reached & finite, finite, |lane| {
                 let state = input + lane;
-                states
-                    .examined(
-                        models.of(state),
-                        state,
-                        &[
-                            (Input::BaseVelocity, states.base.velocity.at(state)),
-                            (Input::PlatformVelocity, states.platform.velocity.at(state)),
-                        ],
-                    )
-                    .err()
+                states.examined(models.of(state), state, &[]).err()
             });
             matrices.mass_matrix_p.store_matrix(first, &mass_p, kept);
             matrices.coriolis_matrix_p.store_matrix(first, &coriolis_p, kept);
@@ -132,7 +119,6 @@ where
     }
 }
 
-#[cfg(feature = "rayon")]
 impl<M, S: Number> super::Job<S> for Matrices<'_, M, S>
 where
     M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::Matrices + Sync,
@@ -141,6 +127,13 @@ where
         self.status.len()
     }
 
+    fn check(&self, count: usize) -> Result<(), LengthError> {
+        self.models.check(count)?;
+        self.states.check(count)?;
+        self.matrices.check(count)
+    }
+
+    #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self) {
         let (matrices, matrices_after) = self.matrices.split(state);
         let (status, status_after) = self.status.split_at_mut(state);

@@ -48,7 +48,6 @@ mod column;
 mod dynamics;
 mod matrices;
 mod models;
-mod rotation;
 mod simulate;
 mod states;
 mod step;
@@ -61,7 +60,7 @@ pub use states::{BaseColumns, PlatformColumns, States};
 use core::error;
 use core::fmt;
 
-use crate::error::{Error, Input};
+use crate::error::Error;
 use crate::kernels::{self, RodAlignment, generic};
 use crate::lanes::{InLanes, Instructions, Kernel, Number};
 use dynamics::{ForwardDynamics, InverseDynamics};
@@ -94,6 +93,18 @@ impl fmt::Display for LengthError {
 }
 
 impl error::Error for LengthError {}
+
+/// Whether every length of an argument is the one expected.
+fn check<const K: usize>(
+    argument: &'static str,
+    expected: usize,
+    lengths: [usize; K],
+) -> Result<(), LengthError> {
+    match lengths.into_iter().find(|length| *length != expected) {
+        None => Ok(()),
+        Some(found) => Err(LengthError { argument, expected, found }),
+    }
+}
 
 /// A model whose functions are evaluated for many states at once.
 #[derive(Debug)]
@@ -159,12 +170,6 @@ impl<'a, M> Batch<'a, M> {
     where
         M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::InverseDynamics + Sync,
     {
-        let count = status.len();
-        self.check_models(count)?;
-        states.check(count)?;
-        platform_acceleration.check("platform_acceleration", count)?;
-        external_wrench.check("external_wrench", count)?;
-        actuator_force.check("actuator_force", count)?;
         let (models, states) = (self.models, *states);
         self.run(InverseDynamics {
             models,
@@ -174,8 +179,7 @@ impl<'a, M> Batch<'a, M> {
             actuator_force,
             status,
             offset: 0,
-        });
-        Ok(())
+        })
     }
 
     /// Platform acceleration, `[r''; w']`, m/s^2 and rad/s^2, under each state's `actuator_force` (N) and `external_wrench`
@@ -194,12 +198,6 @@ impl<'a, M> Batch<'a, M> {
     where
         M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics + Sync,
     {
-        let count = status.len();
-        self.check_models(count)?;
-        states.check(count)?;
-        actuator_force.check("actuator_force", count)?;
-        external_wrench.check("external_wrench", count)?;
-        platform_acceleration.check("platform_acceleration", count)?;
         let (models, states) = (self.models, *states);
         self.run(ForwardDynamics {
             models,
@@ -209,8 +207,7 @@ impl<'a, M> Batch<'a, M> {
             platform_acceleration,
             status,
             offset: 0,
-        });
-        Ok(())
+        })
     }
 
     /// M_p, C_p, J_dp, M_b, C_b, J_db of each state, equations (31), (32), (49); see
@@ -227,12 +224,7 @@ impl<'a, M> Batch<'a, M> {
     where
         M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::Matrices + Sync,
     {
-        let count = status.len();
-        self.check_models(count)?;
-        states.check(count)?;
-        matrices.check(count)?;
-        self.run(Matrices { models: self.models, states: *states, matrices, status, offset: 0 });
-        Ok(())
+        self.run(Matrices { models: self.models, states: *states, matrices, status, offset: 0 })
     }
 
     /// Simulates every platform from where `simulated.platform` says, in fixed steps of `step_s` (s), by a Runge-Kutta method of
@@ -289,14 +281,7 @@ impl<'a, M> Batch<'a, M> {
     where
         M: InLanes<S> + RodAlignment<S> + generic::ActuatorGeometry + generic::ForwardDynamics + Sync,
     {
-        let count = status.len();
-        self.check_models(count)?;
-        for instant in instants {
-            instant.check(count)?;
-        }
-        simulated.check(count)?;
-        self.run(Simulation { models: self.models, step_s, instants, simulated, status, offset: 0 });
-        Ok(())
+        self.run(Simulation { models: self.models, step_s, instants, simulated, status, offset: 0 })
     }
 
     /// All that [`Hexapod`](crate::Hexapod) refuses in poses and velocities, conditioning of J_dp included. One state
@@ -308,53 +293,38 @@ impl<'a, M> Batch<'a, M> {
     where
         M: RodAlignment<S> + kernels::JacobianDp<S>,
     {
-        self.check_models(status.len())?;
+        self.models.check(status.len())?;
         states.check(status.len())?;
         for (state, status) in status.iter_mut().enumerate() {
             *status = states
-                .examined(
-                    self.models.of(state),
-                    state,
-                    &[
-                        (Input::BaseVelocity, states.base.velocity.at(state)),
-                        (Input::PlatformVelocity, states.platform.velocity.at(state)),
-                    ],
-                )
+                .examined(self.models.of(state), state, &[])
                 .and_then(|()| states.invertible(self.models.of(state), state));
         }
         Ok(())
     }
 
-    fn check_models(&self, count: usize) -> Result<(), LengthError> {
-        match self.models.count() {
-            Some(found) if found != count => Err(LengthError { argument: "models", expected: count, found }),
-            _ => Ok(()),
-        }
-    }
-
-    fn run<S: Number, J: Job<S>>(&self, job: J) {
+    fn run<S: Number, J: Job<S>>(&self, job: J) -> Result<(), LengthError> {
+        job.check(job.count())?;
         #[cfg(feature = "rayon")]
         if self.parallel {
-            return in_parallel(self.instructions, job);
+            in_parallel(self.instructions, job);
+            return Ok(());
         }
         self.instructions.run(job);
+        Ok(())
     }
 }
 
-/// A batch with all its arguments.
-#[cfg(not(feature = "rayon"))]
-trait Job<S: Number>: Kernel<S, Output = ()> {}
-
-#[cfg(not(feature = "rayon"))]
-impl<S: Number, K: Kernel<S, Output = ()>> Job<S> for K {}
-
 /// A batch with all its arguments, which can be divided among threads.
-#[cfg(feature = "rayon")]
 trait Job<S: Number>: Kernel<S, Output = ()> + Send + Sized {
     /// Number of states.
     fn count(&self) -> usize;
 
+    /// Whether every argument holds as many.
+    fn check(&self, count: usize) -> Result<(), LengthError>;
+
     /// The states before `state`, and the others. Inputs stay whole: each part knows where its states begin in them.
+    #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self);
 }
 

@@ -1,5 +1,6 @@
 //! The model of a batch, or one for every state.
 
+use super::{LengthError, check};
 use crate::lanes::{InLanes, Lanes, Number};
 
 /// Where a state's model is.
@@ -26,11 +27,11 @@ impl<'a, M> Models<'a, M> {
         }
     }
 
-    /// How many there are, if there is one for every state.
-    pub fn count(self) -> Option<usize> {
+    /// Whether there is one for all `states` states, or one for each.
+    pub fn check(self, states: usize) -> Result<(), LengthError> {
         match self {
-            Self::One(_) => None,
-            Self::Each(models) => Some(models.len()),
+            Self::One(_) => Ok(()),
+            Self::Each(models) => check("models", states, [models.len()]),
         }
     }
 

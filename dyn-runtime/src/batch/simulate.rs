@@ -4,7 +4,7 @@ use super::column::all_lanes;
 use super::models::Models;
 use super::states::{PlatformLanes, finite, flat, lengths, rows};
 use super::step::step;
-use super::{BaseColumns, Column, ColumnMut, LengthError, PlatformColumns, States, Status};
+use super::{BaseColumns, Column, ColumnMut, LengthError, PlatformColumns, States, Status, check};
 use crate::error::{Error, Input};
 use crate::float::{Scalar, mul_add};
 use crate::kernels::{RodAlignment, generic};
@@ -65,10 +65,7 @@ impl<'a, S: Number> Simulated<'a, S> {
                 column.check(argument, states)?;
             }
         }
-        match self.steps.len() {
-            found if found != states => Err(LengthError { argument: "steps", expected: states, found }),
-            _ => Ok(()),
-        }
+        check("steps", states, [self.steps.len()])
     }
 
     #[cfg(feature = "rayon")]
@@ -263,13 +260,10 @@ fn why_stopped<M: RodAlignment<S>, S: Number>(
         (Input::BaseAcceleration, instant.base.acceleration.at(input)),
         (Input::ActuatorForce, instant.actuator_force.at(input)),
         (Input::ExternalWrench, instant.external_wrench.at(input)),
-        (Input::BaseVelocity, instant.base.velocity.at(input)),
-        (Input::PlatformVelocity, platform.velocity.at(input)),
     ];
     states.examined(models.of(input), input, &others).err().unwrap_or(Error::NonFiniteResult)
 }
 
-#[cfg(feature = "rayon")]
 impl<M, S: Number> super::Job<S> for Simulation<'_, M, S>
 where
     M: InLanes<S> + RodAlignment<S> + generic::ActuatorGeometry + generic::ForwardDynamics + Sync,
@@ -278,6 +272,15 @@ where
         self.status.len()
     }
 
+    fn check(&self, count: usize) -> Result<(), LengthError> {
+        self.models.check(count)?;
+        for instant in self.instants {
+            instant.check(count)?;
+        }
+        self.simulated.check(count)
+    }
+
+    #[cfg(feature = "rayon")]
     fn split(self, state: usize) -> (Self, Self) {
         let (simulated, simulated_after) = self.simulated.split(state);
         let (status, status_after) = self.status.split_at_mut(state);

@@ -119,15 +119,18 @@ impl<S: Number> States<'_, S> {
         (self.base.load(first), self.platform.load(first))
     }
 
-    /// What [`Hexapod`](crate::Hexapod) refuses in the poses of a state and in these other inputs, conditioning of J_dp
-    /// aside.
+    /// What [`Hexapod`](crate::Hexapod) refuses in a state and in these other inputs, conditioning of J_dp aside.
     pub(super) fn examined<M: RodAlignment<S>>(
         &self,
         model: &M,
         state: usize,
         others: &[(Input, [S; 6])],
     ) -> Status {
-        for (input, numbers) in others {
+        let velocities = [
+            (Input::BaseVelocity, self.base.velocity.at(state)),
+            (Input::PlatformVelocity, self.platform.velocity.at(state)),
+        ];
+        for (input, numbers) in others.iter().chain(&velocities) {
             check::finite(*input, *numbers)?;
         }
         let (base, platform) = self.poses(state)?;

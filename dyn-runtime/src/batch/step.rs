@@ -4,11 +4,11 @@
 //! the vector space of phi, and R stays a rotation whatever the step.
 
 use super::Instant;
-use super::rotation::{MAX_TURN_RAD, dot, orthonormalised, rotation_vector_rate, turned};
 use super::states::{PlatformLanes, finite};
 use crate::float::mul_add;
 use crate::kernels::generic;
 use crate::lanes::{InLanes, Lanes};
+use crate::rotation_vector::arrays::{MAX_TURN_RAD, dot, orthonormalised, rate_within_step, turned};
 
 /// v_p' at an instant.
 #[inline(always)]
@@ -69,7 +69,7 @@ where
         turned_far = larger(turned_far, dot(phi, phi));
         let found = acceleration::<M, T>(parameters, &instants[instant], first, &moved);
         let [vx, vy, vz, wx, wy, wz] = moved.velocity;
-        let [px, py, pz] = rotation_vector_rate(phi, [wx, wy, wz]);
+        let [px, py, pz] = rate_within_step(phi, [wx, wy, wz]);
         let [a, b, c, d, e, f] = found;
         rates = [vx, vy, vz, px, py, pz, a, b, c, d, e, f];
         let weight = T::constant(weight);

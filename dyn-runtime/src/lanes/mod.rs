@@ -64,6 +64,8 @@ pub use model::{Generic, InLanes};
 use crate::float::Scalar;
 use crate::real::Real;
 use crate::trigonometry;
+#[cfg(target_arch = "x86_64")]
+use crate::x86::{has_avx2, has_avx512};
 
 /// Several numbers side by side.
 ///
@@ -170,9 +172,9 @@ impl Set {
     fn available(self) -> bool {
         match self {
             #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => x86::has_avx512(),
+            Set::Avx512 => has_avx512(),
             #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => x86::has_avx2(),
+            Set::Avx2 => has_avx2(),
             Set::Portable => true,
         }
     }
@@ -188,7 +190,7 @@ impl Instructions {
     #[inline]
     pub(crate) fn of_single_states() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if x86::has_avx2() {
+        if has_avx2() {
             return Self(Set::Avx2);
         }
         Self(Set::Portable)

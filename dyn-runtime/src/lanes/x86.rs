@@ -5,32 +5,12 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Kernel, Lanes, Number, filled, solve};
 use crate::float::Scalar;
-
-/// Whether a feature was compiled for, or (with `std`) this processor has it.
-macro_rules! has {
-    ($feature:tt) => {{
-        #[cfg(feature = "std")]
-        let has = std::is_x86_feature_detected!($feature);
-        #[cfg(not(feature = "std"))]
-        let has = cfg!(target_feature = $feature);
-        has
-    }};
-}
-
-/// Whether [`run_avx2`] may be called.
-pub(super) fn has_avx2() -> bool {
-    [has!("avx2"), has!("fma")] == [true; 2]
-}
-
-/// Whether [`run_avx512`] may be called.
-pub(super) fn has_avx512() -> bool {
-    [has_avx2(), has!("avx512f"), has!("avx512vl"), has!("avx512dq")] == [true; 4]
-}
+use crate::x86::operators;
 
 /// Runs a kernel with lanes of AVX2 and FMA.
 ///
 /// # Safety
-/// [`has_avx2`].
+/// [`has_avx2`](crate::x86::has_avx2).
 #[target_feature(enable = "avx2,fma")]
 pub(super) unsafe fn run_avx2<S: Number, T: Lanes<Number = S>, K: Kernel<S>>(kernel: K) -> K::Output {
     kernel.run::<T>()
@@ -39,7 +19,7 @@ pub(super) unsafe fn run_avx2<S: Number, T: Lanes<Number = S>, K: Kernel<S>>(ker
 /// Runs a kernel with lanes of AVX-512.
 ///
 /// # Safety
-/// [`has_avx512`].
+/// [`has_avx512`](crate::x86::has_avx512).
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
 pub(super) unsafe fn run_avx512<S: Number, T: Lanes<Number = S>, K: Kernel<S>>(kernel: K) -> K::Output {
     kernel.run::<T>()
@@ -61,7 +41,7 @@ macro_rules! lanes {
         #[derive(Clone, Copy)]
         pub struct $name($vector);
 
-        lanes!(@operator $name Add add $add, Sub sub $sub, Mul mul $mul, Div div $div);
+        operators!($name: Add::add = $add, Sub::sub = $sub, Mul::mul = $mul, Div::div = $div);
 
         impl Neg for $name {
             type Output = Self;
@@ -199,17 +179,6 @@ macro_rules! lanes {
             }
         }
     };
-    (@operator $name:ident $($operator:ident $function:ident $intrinsic:ident),*) => {$(
-        impl $operator for $name {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                // SAFETY: a value of this type exists only where its instructions do.
-                Self(unsafe { $intrinsic(self.0, other.0) })
-            }
-        }
-    )*};
 }
 
 lanes! {

@@ -14,15 +14,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Call, Triple};
 use crate::float::Scalar;
+use crate::x86::operators;
 
-/// Whether this processor has AVX2 and FMA, as far as this build can know.
-#[inline(always)]
-pub(super) fn available() -> bool {
-    #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
-    return true;
-    #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
-    return std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
-}
+pub(super) use crate::x86::has_avx2 as available;
 
 /// Makes the call in registers.
 ///
@@ -43,21 +37,7 @@ fn in_register<C: Call<f64>>(call: C) {
 #[derive(Clone, Copy)]
 struct Register(__m256d);
 
-macro_rules! by_intrinsic {
-    ($($operator:ident::$function:ident = $intrinsic:ident),*) => {
-        $(impl $operator for Register {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                // SAFETY: a register exists only within `in_register`.
-                Register(unsafe { $intrinsic(self.0, other.0) })
-            }
-        })*
-    };
-}
-
-by_intrinsic!(
+operators!(Register:
     Add::add = _mm256_add_pd,
     Sub::sub = _mm256_sub_pd,
     Mul::mul = _mm256_mul_pd,

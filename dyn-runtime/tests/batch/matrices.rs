@@ -1,6 +1,6 @@
 //! Matrices of many states.
 
-use dyn_runtime::batch::{Batch, ColumnMut, MatricesMut};
+use dyn_runtime::batch::{Batch, ColumnMut};
 use dyn_runtime::lanes::Instructions;
 use dyn_runtime::models::{Uhp2016, uhp_2016};
 
@@ -12,15 +12,7 @@ fn matrices_are_those_of_a_single_state() {
     for instructions in Instructions::available() {
         let mut matrices: [Vec<[f64; 36]>; 6] = std::array::from_fn(|_| vec![[0.0; 36]; 11]);
         let mut status = vec![Ok(()); 11];
-        let [a, b, c, d, e, f] = matrices.each_mut().map(|matrices| ColumnMut::states(matrices));
-        let out = MatricesMut {
-            mass_matrix_p: a,
-            coriolis_matrix_p: b,
-            jacobian_dp: c,
-            mass_matrix_b: d,
-            coriolis_matrix_b: e,
-            jacobian_db: f,
-        };
+        let out = matrices.each_mut().map(|matrices| ColumnMut::states(matrices)).into();
         let batch = Batch::new(&Uhp2016).with_instructions(instructions);
         batch.matrices(&inputs.states(), out, &mut status).expect("lengths");
         for state in 0..11 {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use dyn_platform::{FileError, Platform, Refusal, read_text};
 use dyn_runtime::nalgebra::{Vector3, Vector6};
-use dyn_runtime::{PlatformState, Pose, Twist};
+use dyn_runtime::{PlatformState, Pose, Twist, rotation_vector};
 use toml::Spanned;
 
 use super::checks::{finite, positive};
@@ -14,7 +14,7 @@ use super::{Steering, csv};
 use crate::excitation::Harmonic;
 use crate::measured::Measured;
 use crate::motion::{Angular, Motion};
-use crate::rotation::{exponential, from_rows};
+use crate::rotation::from_rows;
 use crate::simulate::Grid;
 
 /// Harmonics of w' are turned into a rotation up to second order; beyond this sum of rotation amplitudes (rad) what is
@@ -69,7 +69,7 @@ impl Reader<'_> {
         let turn = self.vector("free.rotation_rad", free.rotation_rad.as_ref());
         let pose = start.pose.compose(&Pose {
             position_m: relative.position_m + self.vector("free.position_m", free.position_m.as_ref()),
-            rotation: exponential(&turn) * relative.rotation,
+            rotation: rotation_vector::rotation(&turn) * relative.rotation,
         });
         let w = start.velocity.angular_rad_s;
         let arm = pose.position_m - start.pose.position_m;

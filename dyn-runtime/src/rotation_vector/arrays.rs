@@ -1,18 +1,20 @@
-//! Rotations within a step, for any number of lanes, without a branch; the formulas are those of rotation vectors,
-//! `R = exp([phi]x)`. Loops, not closures: those are not always inlined, and then not compiled for the lanes.
+//! Rotation vectors as plain arrays, for one number or any number of lanes, without a branch. Loops, not closures: those are
+//! not always inlined, and then not compiled for the lanes.
 
 use crate::float::{Scalar, mul_add};
 
-/// Coefficients of the series up to an angle of [`MAX_TURN_RAD`]; the first one left out is below `1/20!`.
+/// Coefficients of the series up to an angle of [`MAX_TURN_RAD`]; the first one left out is below `1/19!`.
 const TERMS: usize = 9;
 
-/// Largest turn within a step.
-pub(super) const MAX_TURN_RAD: f64 = 1.0;
+/// Largest turn for which the series are exact, up to rounding.
+pub(crate) const MAX_TURN_RAD: f64 = 1.0;
 
 /// `sin s/s` as a series in `s^2`.
-const SINC: [f64; TERMS] = alternating_reciprocal_factorials(1);
+pub(super) const SINC: [f64; TERMS] = alternating_reciprocal_factorials(1);
 /// `(1 - cos s)/s^2` as a series in `s^2`.
-const A: [f64; TERMS] = alternating_reciprocal_factorials(2);
+pub(super) const A: [f64; TERMS] = alternating_reciprocal_factorials(2);
+/// `(s - sin s)/s^3` as a series in `s^2`.
+pub(super) const B: [f64; TERMS] = alternating_reciprocal_factorials(3);
 
 /// `(-1)^k / (2 k + first)!`
 const fn alternating_reciprocal_factorials(first: usize) -> [f64; TERMS] {
@@ -31,18 +33,30 @@ const fn alternating_reciprocal_factorials(first: usize) -> [f64; TERMS] {
     values
 }
 
+/// The polynomial with these coefficients, that of the constant first.
 #[inline(always)]
-fn polynomial<T: Scalar>(coefficients: &[f64; TERMS], x: T) -> T {
-    let mut value = T::constant(coefficients[TERMS - 1]);
-    for coefficient in coefficients.iter().rev().skip(1) {
+pub(super) fn polynomial<T: Scalar>(coefficients: &[f64], x: T) -> T {
+    let Some((last, before)) = coefficients.split_last() else { return T::constant(0.0) };
+    let mut value = T::constant(*last);
+    for coefficient in before.iter().rev() {
         value = mul_add(value, x, T::constant(*coefficient));
+    }
+    value
+}
+
+/// The derivative of [`polynomial`].
+#[inline(always)]
+pub(super) fn derivative<T: Scalar>(coefficients: &[f64], x: T) -> T {
+    let mut value = T::constant(0.0);
+    for (power, coefficient) in coefficients.iter().enumerate().skip(1).rev() {
+        value = mul_add(value, x, T::constant(*coefficient * power as f64));
     }
     value
 }
 
 /// `a . b`
 #[inline(always)]
-pub(super) fn dot<T: Scalar>(a: [T; 3], b: [T; 3]) -> T {
+pub(crate) fn dot<T: Scalar>(a: [T; 3], b: [T; 3]) -> T {
     mul_add(a[2], b[2], mul_add(a[1], b[1], a[0] * b[0]))
 }
 
@@ -75,27 +89,30 @@ fn product<T: Scalar>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> [[T; 3]; 3] {
 
 /// `exp([phi]x) R` for `|phi|` up to [`MAX_TURN_RAD`].
 #[inline(always)]
-pub(super) fn turned<T: Scalar>(phi: [T; 3], rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+pub(crate) fn turned<T: Scalar>(phi: [T; 3], rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
     let square = dot(phi, phi);
-    let (sinc, a) = (polynomial(&SINC, square), polynomial(&A, square));
+    product(&turn(phi, polynomial(&SINC, square), polynomial(&A, square)), rotation)
+}
+
+/// `exp([phi]x)` from `sin s/s` and `(1 - cos s)/s^2`, where `s = |phi|`.
+#[inline(always)]
+pub(super) fn turn<T: Scalar>(phi: [T; 3], sinc: T, a: T) -> [[T; 3]; 3] {
     let one = T::constant(1.0);
     let [x, y, z] = phi;
     let [sx, sy, sz] = scaled(phi, sinc);
     let [ax, ay, az] = scaled(phi, a);
     let (axy, axz, ayz) = (ax * y, ax * z, ay * z);
     let (axx, ayy, azz) = (ax * x, ay * y, az * z);
-    let turn = [
+    [
         [one - (ayy + azz), axy - sz, axz + sy],
         [axy + sz, one - (axx + azz), ayz - sx],
         [axz - sy, ayz + sx, one - (axx + ayy)],
-    ];
-    product(&turn, rotation)
+    ]
 }
 
-/// The rate of the rotation vector `phi` under angular velocity `w`, up to the second commutator:
-/// `phi' = w - phi x w/2 + phi x (phi x w)/12`; what is left out is of fourth order in `phi`.
+/// See [`rate_within_step`](super::rate_within_step).
 #[inline(always)]
-pub(super) fn rotation_vector_rate<T: Scalar>(phi: [T; 3], w: [T; 3]) -> [T; 3] {
+pub(crate) fn rate_within_step<T: Scalar>(phi: [T; 3], w: [T; 3]) -> [T; 3] {
     let once = cross(phi, w);
     let twice = cross(phi, once);
     let (half, twelfth) = (T::constant(-0.5), T::constant(1.0 / 12.0));
@@ -106,10 +123,9 @@ pub(super) fn rotation_vector_rate<T: Scalar>(phi: [T; 3], w: [T; 3]) -> [T; 3] 
     rate
 }
 
-/// The rotation nearest to a product of rotations, for errors of rounding: `R (3 - R^T R)/2`, one step of Newton's
-/// iteration.
+/// See [`orthonormalised`](super::orthonormalised).
 #[inline(always)]
-pub(super) fn orthonormalised<T: Scalar>(rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+pub(crate) fn orthonormalised<T: Scalar>(rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
     let (three_halves, half) = (T::constant(1.5), T::constant(0.5));
     let correction = product(rotation, &product(&transposed(rotation), rotation));
     let mut nearest = *rotation;
