@@ -10,8 +10,9 @@ use std::time;
 use dyn_runtime::batch::{
     BaseColumns, Batch, Column, ColumnMut, Instant, PlatformColumns, Simulated, States, Status,
 };
+use dyn_runtime::float::mul_add;
 use dyn_runtime::kernels::{RodAlignment, generic};
-use dyn_runtime::lanes::{InLanes, Instructions, Number};
+use dyn_runtime::lanes::{InLanes, Instructions, Kernel, Lanes, Number};
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::Vector3;
 use dyn_runtime::{BaseMotion, Pose};
@@ -105,6 +106,43 @@ fn time(mut run: impl FnMut()) -> f64 {
         })
         .fold(f64::INFINITY, f64::min);
     least * 1e9 / STATES as f64
+}
+
+/// Multiply-adds in lanes that do not wait for one another: what no batch can be faster than.
+struct MultiplyAdds;
+
+impl MultiplyAdds {
+    /// Enough to hide the latency of each.
+    const CHAINS: usize = 12;
+    const ROUNDS: usize = 10_000;
+}
+
+impl<S: Number> Kernel<S> for MultiplyAdds {
+    /// Nanoseconds per multiply-add and lane.
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<T: Lanes<Number = S>>(self) -> f64 {
+        let mut least = f64::INFINITY;
+        for _ in 0..BATCHES {
+            let (factor, addend) =
+                (T::splat(black_box(S::constant(0.5))), T::splat(black_box(S::constant(1.0))));
+            let mut sums = [addend; Self::CHAINS];
+            let start = time::Instant::now();
+            for _ in 0..Self::ROUNDS {
+                for sum in &mut sums {
+                    *sum = mul_add(*sum, factor, addend);
+                }
+            }
+            for sum in sums {
+                let mut last = S::zero();
+                sum.for_each(|_, number| last = number);
+                black_box(last);
+            }
+            least = least.min(start.elapsed().as_secs_f64());
+        }
+        least * 1e9 / (Self::ROUNDS * Self::CHAINS * T::COUNT) as f64
+    }
 }
 
 /// Inverse and forward dynamics, by component and by state.
@@ -258,6 +296,12 @@ fn numbers_of_a_platform() -> Vec<(&'static str, Vec<f64>)> {
 fn main() {
     println!("nanoseconds per state, least of {BATCHES} batches of {STATES} states");
     for instructions in Instructions::available() {
+        let [double, single] =
+            [instructions.run::<f64, _>(MultiplyAdds), instructions.run::<f32, _>(MultiplyAdds)];
+        println!(
+            "{:8} a multiply-add        f64 {double:.4}  f32 {single:.4}, each without waiting for others",
+            instructions.name()
+        );
         dynamics::<f64, _>(&Uhp2016, "baked, f64", instructions);
         matrices(instructions);
         dynamics::<f32, _>(&Uhp2016, "baked, f32", instructions);
