@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use crate::states::{Inputs, States};
 
 /// A state as checked calls take it.
+#[derive(Clone)]
 pub struct TypedState {
     base: BaseMotion,
     platform: PlatformState,

@@ -1,9 +1,9 @@
 //! A control loop at 10 kHz on the machine at hand: how long the model takes in every cycle.
 //!
-//! The loop sleeps for a part of each period and waits actively for the rest, as a controller without a real-time operating
-//! system does. What happens in between belongs to it: other programs run, caches and branch predictors forget. A controller
-//! that has the time therefore rehearses: while it waits it repeats the call of the cycle before, so that the next one finds
-//! code and data at hand.
+//! What happens between cycles belongs to it: a processor that has nothing to do is taken away, by other programs or by the host
+//! of a virtual machine, and its caches and branch predictors forget. A controller that has a processor for itself therefore
+//! waits actively, and rehearses: it repeats the call of the cycle before, so that the next one finds code and data at hand.
+//! Without that, the loop sleeps for the first part of each period.
 
 use std::hint::{black_box, spin_loop};
 use std::thread;
@@ -15,19 +15,19 @@ use serde::Serialize;
 /// Time from one cycle to the next.
 pub const PERIOD: Duration = Duration::from_micros(100);
 
-/// How long before a cycle the loop stops sleeping; an ordinary kernel wakes a thread some 60 us late.
+/// How long before a cycle a loop that does not rehearse stops sleeping; an ordinary kernel wakes a thread some 60 us late.
 const AWAKE: Duration = Duration::from_micros(75);
 
 /// Rehearsals end when this many of them, each as long as the last one, would no longer fit: an interrupt after the last
 /// rehearsal makes the machine forget again, so little time is left for one.
 const ROOM: u32 = 2;
 
-/// What the loop does while it waits actively.
+/// What the loop does between cycles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Waiting {
-    /// It repeats the call of the cycle before.
+    /// It repeats the call of the cycle before, all the time.
     Rehearsing,
-    /// Nothing.
+    /// It sleeps.
     Idle,
 }
 
@@ -57,38 +57,35 @@ pub struct Summary {
     pub p99_9_by_median: f64,
 }
 
-/// Runs `model` with the number of the cycle, in every period of `duration`. A reference, so that rehearsals and cycles run
-/// the same code.
+/// Runs `model` in every period of `duration` with one of the states after the other, which arrives before the clock is read,
+/// as from an estimator. The model is a reference, so that rehearsals and cycles run the same code.
 ///
 /// # Errors
 /// If a histogram cannot be made.
-pub fn run(
+pub fn run<State: Clone>(
     duration: Duration,
     waiting: Waiting,
-    model: &mut dyn FnMut(usize),
+    states: &[State],
+    model: &mut dyn FnMut(&State),
 ) -> Result<Run, hdrhistogram::CreationError> {
     let histogram = || Histogram::new_with_bounds(1, LONGEST_NS, 3);
     let mut result = Run { model: histogram()?, lateness: histogram()? };
     let cycles = (duration.as_nanos() / PERIOD.as_nanos()) as usize;
+    let mut before: Option<State> = None;
     let mut due = Instant::now() + PERIOD;
-    for cycle in 0..cycles {
-        sleep_until(due - AWAKE);
-        if waiting == Waiting::Rehearsing {
-            let mut now = Instant::now();
-            let mut last = Duration::ZERO;
-            while now + ROOM * last < due {
-                model(black_box(cycle.saturating_sub(1)));
-                let ended = Instant::now();
-                last = ended - now;
-                now = ended;
-            }
+    for state in states.iter().cycle().take(cycles) {
+        match &before {
+            Some(state) if waiting == Waiting::Rehearsing => rehearse(due, || model(black_box(state))),
+            _ => sleep_until(due - AWAKE),
         }
+        let state = black_box(state.clone());
         let begun = wait_until(due);
-        model(black_box(cycle));
+        model(&state);
         let ended = Instant::now();
         // Longer than the longest counts as the longest.
         result.model.saturating_record(nanoseconds(ended - begun));
         result.lateness.saturating_record(nanoseconds(begun - due));
+        before = Some(state);
         // A cycle that was missed is not made up for: a controller would act on old measurements.
         due += PERIOD;
         while due < ended {
@@ -96,6 +93,16 @@ pub fn run(
         }
     }
     Ok(result)
+}
+
+fn rehearse(due: Instant, mut call: impl FnMut()) {
+    let (mut now, mut last) = (Instant::now(), Duration::ZERO);
+    while now + ROOM * last < due {
+        call();
+        let ended = Instant::now();
+        last = ended - now;
+        now = ended;
+    }
 }
 
 fn sleep_until(awake: Instant) {
@@ -158,15 +165,15 @@ mod tests {
 
     #[test]
     fn every_period_has_a_cycle_and_times_are_told_apart() {
-        let mut cycles = Vec::new();
-        let run = run(10 * PERIOD, Waiting::Idle, &mut |cycle| {
-            cycles.push(cycle);
-            if cycle == 5 {
+        let (states, mut cycles) = ([0, 1, 2, 3, 4, 5, 6], Vec::new());
+        let run = run(10 * PERIOD, Waiting::Idle, &states, &mut |cycle| {
+            cycles.push(*cycle);
+            if *cycle == 5 {
                 thread::sleep(Duration::from_millis(2));
             }
         })
         .unwrap();
-        assert_eq!(cycles, (0..10).collect::<Vec<_>>());
+        assert_eq!(cycles, [0, 1, 2, 3, 4, 5, 6, 0, 1, 2]);
         assert_eq!((run.model.len(), run.lateness.len()), (10, 10));
         let summary = Summary::of(&run.model);
         assert!(summary.max_ns >= 2_000_000 && summary.median_ns < 2_000_000, "{summary:?}");
@@ -176,8 +183,9 @@ mod tests {
     fn rehearsals_repeat_the_cycle_before_and_are_not_measured() {
         // Enough of them that a busy machine leaves time to some.
         const CYCLES: usize = 2000;
-        let mut cycles = Vec::new();
-        let run = run(CYCLES as u32 * PERIOD, Waiting::Rehearsing, &mut |cycle| cycles.push(cycle)).unwrap();
+        let (states, mut cycles): (Vec<usize>, Vec<usize>) = ((0..CYCLES).collect(), Vec::new());
+        let duration = CYCLES as u32 * PERIOD;
+        let run = run(duration, Waiting::Rehearsing, &states, &mut |cycle| cycles.push(*cycle)).unwrap();
         assert_eq!(run.model.len() as usize, CYCLES);
         assert!(cycles.is_sorted() && cycles.len() > CYCLES);
         cycles.dedup();

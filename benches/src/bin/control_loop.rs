@@ -10,7 +10,7 @@ use clap::Parser;
 use dyn_benches::control_loop::{Run, Summary, Waiting, run};
 use dyn_benches::loop_plot::{self, Curve};
 use dyn_benches::machine::Machine;
-use dyn_benches::states::{COUNT, States, platform, reference_parameters, sampled};
+use dyn_benches::states::{States, platform, reference_parameters, sampled};
 use dyn_benches::{CODEGEN, bundle, table};
 use serde::Serialize;
 
@@ -22,7 +22,7 @@ const MAX_RATIO: f64 = 3.0;
 /// In every cycle one state goes in, and lengths, rates, J_dp, M_p, bias and forces come out: by generated code with all
 /// checks, and by the reference. Each takes its turn, several times, and so does nothing: two readings of the clock, which
 /// show what the machine itself adds. Close other programs first. While it waits for the next
-/// cycle the loop repeats the call of the last one, which is not measured.
+/// cycle the loop repeats the call of the last one, which is not measured, and needs a processor for itself.
 #[derive(Parser)]
 struct Arguments {
     /// Runs of each implementation; medians over them are reported
@@ -37,7 +37,7 @@ struct Arguments {
     /// Write a plot, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Wait without repeating the last call: what a loop gets that leaves the processor to others between its cycles
+    /// Sleep instead of repeating the last call: what a loop gets that leaves the processor to others between its cycles
     #[arg(long)]
     idle: bool,
     /// Fail if the time that 999 of 1000 cycles keep is more than 3 times the median
@@ -79,20 +79,18 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     for number in 1..=arguments.runs {
         eprintln!("run {number} of {}", arguments.runs);
         let mut refused = false;
-        generated.push(run(duration, waiting, &mut |cycle| {
-            let result = bundle::generated(&typed[cycle % COUNT]);
+        generated.push(run(duration, waiting, &typed, &mut |state| {
+            let result = bundle::generated(state);
             refused |= result.is_err();
             let _ = black_box(result);
         })?);
         if refused {
             return Err("a checked call refused a state that was sampled to be good".into());
         }
-        reference.push(run(duration, waiting, &mut |cycle| {
-            black_box(bundle::reference(&parameters, &states.reference[cycle % COUNT]));
+        reference.push(run(duration, waiting, &states.reference[..], &mut |state| {
+            black_box(bundle::reference(&parameters, state));
         })?);
-        nothing.push(run(duration, waiting, &mut |cycle| {
-            black_box(cycle);
-        })?);
+        nothing.push(run(duration, waiting, &[()], &mut |()| {})?);
     }
     let after = Machine::now();
 
