@@ -98,7 +98,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         #[allow(unused_imports)]
         use #runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
-        use #runtime::solve::solve_general;
+        use #runtime::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
         #[allow(unused_imports)]
         use #runtime::triple::Triple;
     }];

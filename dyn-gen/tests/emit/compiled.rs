@@ -15,6 +15,7 @@ mod float {
         fn constant(value: f64) -> Self;
         fn square_root(self) -> Self;
         fn solve<const N: usize>(matrix: &[[Self; N]; N], rhs: &[Self; N]) -> [Self; N];
+        fn solve_after<const N: usize>(attempt: &[Self; N], matrix: &[[Self; N]; N], rhs: &[Self; N]) -> [Self; N];
     }
     impl Scalar for f64 {
         fn constant(value: f64) -> f64 { value }
@@ -22,11 +23,15 @@ mod float {
         fn solve<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
             crate::solve::by_elimination(matrix, rhs)
         }
+        fn solve_after<const N: usize>(attempt: &[f64; N], matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
+            crate::solve::after(attempt, matrix, rhs)
+        }
     }
     impl Scalar for f32 {
         fn constant(value: f64) -> f32 { value as f32 }
         fn square_root(self) -> f32 { self.sqrt() }
         fn solve<const N: usize>(_: &[[f32; N]; N], _: &[f32; N]) -> [f32; N] { unimplemented!() }
+        fn solve_after<const N: usize>(_: &[f32; N], _: &[[f32; N]; N], _: &[f32; N]) -> [f32; N] { unimplemented!() }
     }
     pub fn sqrt<T: Scalar>(x: T) -> T { x.square_root() }
     pub fn mul_add<T: Scalar>(a: T, b: T, c: T) -> T { a * b + c }
@@ -99,6 +104,30 @@ mod lanes {
 mod solve {
     pub fn solve_general<T: crate::float::Scalar, const N: usize>(matrix: &[[T; N]; N], rhs: &[T; N]) -> [T; N] {
         T::solve(matrix, rhs)
+    }
+    /// The attempt where it solves the system, else by elimination.
+    pub fn solve_after_attempt<T: crate::float::Scalar, const N: usize>(
+        attempt: &[T; N],
+        matrix: &[[T; N]; N],
+        rhs: &[T; N],
+    ) -> [T; N] {
+        T::solve_after(attempt, matrix, rhs)
+    }
+    pub fn after<const N: usize>(attempt: &[f64; N], matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
+        let right = matrix.iter().zip(rhs).all(|(row, b)| {
+            let terms = row.iter().zip(attempt).map(|(a, x)| a * x);
+            let (sum, squares) = terms.fold((0.0, 0.0), |(sum, squares), term| (sum + term, squares + term * term));
+            (sum - b) * (sum - b) < 1024.0 * f64::EPSILON * f64::EPSILON * squares
+        });
+        if right { *attempt } else { by_elimination(matrix, rhs) }
+    }
+    pub fn solve_after_attempt_in_lanes<P: crate::triple::Triple>(
+        _: &[P; 2],
+        _: &[[P; 2]; 6],
+        _: &[P::Lane; 6],
+        _: &[usize; 6],
+    ) -> [P::Lane; 6] {
+        unreachable!()
     }
     /// Gauss-Jordan with row exchanges; exact for the small integers the tests use.
     pub fn by_elimination<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {

@@ -23,10 +23,10 @@
 // passive_forces                  1257         789
 // bias                            2107        1327
 // equation_of_motion              7338        4575
-// inverse_dynamics                2160        1375
+// inverse_dynamics                2160        1527
 // actuator_geometry                591         381
-// control                         3146        2046
-// passive_inverse_dynamics        2808        1783
+// control                         3146        2198
+// passive_inverse_dynamics        2808        1935
 // base_reaction                   2412        1543
 // forward_dynamics                3003        1934
 // energy                          1664         996
@@ -34,7 +34,7 @@
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use crate::solve::solve_general;
+use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
 #[allow(unused_imports)]
 use crate::triple::Triple;
 
@@ -21552,1098 +21552,1187 @@ pub fn inverse_dynamics<T: Scalar>(
     inverse_dynamics: &mut [T; 6],
 ) {
     let c = T::constant;
-    // rotation of the platform seen from the base
-    let t1 = base_rotation[1][0] * platform_rotation[1][0];
-    let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
-    let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
-    let t4 = base_rotation[1][0] * platform_rotation[1][1];
-    let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
-    let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
-    let t7 = base_rotation[1][0] * platform_rotation[1][2];
-    let t8 = mul_add(base_rotation[0][0], platform_rotation[0][2], t7);
-    let t9 = mul_add(base_rotation[2][0], platform_rotation[2][2], t8);
-    let t10 = base_rotation[1][1] * platform_rotation[1][0];
-    let t11 = mul_add(base_rotation[0][1], platform_rotation[0][0], t10);
-    let t12 = mul_add(base_rotation[2][1], platform_rotation[2][0], t11);
-    let t13 = base_rotation[1][1] * platform_rotation[1][1];
-    let t14 = mul_add(base_rotation[0][1], platform_rotation[0][1], t13);
-    let t15 = mul_add(base_rotation[2][1], platform_rotation[2][1], t14);
-    let t16 = base_rotation[1][1] * platform_rotation[1][2];
-    let t17 = mul_add(base_rotation[0][1], platform_rotation[0][2], t16);
-    let t18 = mul_add(base_rotation[2][1], platform_rotation[2][2], t17);
-    let t19 = base_rotation[1][2] * platform_rotation[1][0];
-    let t20 = mul_add(base_rotation[0][2], platform_rotation[0][0], t19);
-    let t21 = mul_add(base_rotation[2][2], platform_rotation[2][0], t20);
-    let t22 = base_rotation[1][2] * platform_rotation[1][1];
-    let t23 = mul_add(base_rotation[0][2], platform_rotation[0][1], t22);
-    let t24 = mul_add(base_rotation[2][2], platform_rotation[2][1], t23);
-    let t25 = base_rotation[1][2] * platform_rotation[1][2];
-    let t26 = mul_add(base_rotation[0][2], platform_rotation[0][2], t25);
-    let t27 = mul_add(base_rotation[2][2], platform_rotation[2][2], t26);
-    // platform origin seen from the base
-    let t28 = base_position[2] - platform_position[2];
-    let t29 = base_position[0] - platform_position[0];
-    let t30 = base_position[1] - platform_position[1];
-    let t31 = mul_add(base_rotation[0][0], t29, base_rotation[1][0] * t30);
-    let t32 = mul_add(base_rotation[2][0], t28, t31);
-    let t33 = mul_add(base_rotation[0][1], t29, base_rotation[1][1] * t30);
-    let t34 = mul_add(base_rotation[2][1], t28, t33);
-    let t35 = mul_add(base_rotation[0][2], t29, base_rotation[1][2] * t30);
-    let t36 = mul_add(base_rotation[2][2], t28, t35);
-    // leg 1: platform joint from the platform origin
-    let t37 = parameters.platform_point[0][1] * t6;
-    let t38 = mul_add(parameters.platform_point[0][0], t3, t37);
-    let t39 = mul_add(parameters.platform_point[0][2], t9, t38);
-    let t40 = parameters.platform_point[0][1] * t15;
-    let t41 = mul_add(parameters.platform_point[0][0], t12, t40);
-    let t42 = mul_add(parameters.platform_point[0][2], t18, t41);
-    let t43 = parameters.platform_point[0][1] * t24;
-    let t44 = mul_add(parameters.platform_point[0][0], t21, t43);
-    let t45 = mul_add(parameters.platform_point[0][2], t27, t44);
-    // leg 1: platform joint from the base point
-    let t46 = parameters.base_point[0][0] + (t32 - t39);
-    let t47 = parameters.base_point[0][1] + (t34 - t42);
-    let t48 = parameters.base_point[0][2] + (t36 - t45);
-    // leg 2: platform joint from the platform origin
-    let t49 = parameters.platform_point[1][1] * t6;
-    let t50 = mul_add(parameters.platform_point[1][0], t3, t49);
-    let t51 = mul_add(parameters.platform_point[1][2], t9, t50);
-    let t52 = parameters.platform_point[1][1] * t15;
-    let t53 = mul_add(parameters.platform_point[1][0], t12, t52);
-    let t54 = mul_add(parameters.platform_point[1][2], t18, t53);
-    let t55 = parameters.platform_point[1][1] * t24;
-    let t56 = mul_add(parameters.platform_point[1][0], t21, t55);
-    let t57 = mul_add(parameters.platform_point[1][2], t27, t56);
-    // leg 2: platform joint from the base point
-    let t58 = parameters.base_point[1][0] + (t32 - t51);
-    let t59 = parameters.base_point[1][1] + (t34 - t54);
-    let t60 = parameters.base_point[1][2] + (t36 - t57);
-    // leg 3: platform joint from the platform origin
-    let t61 = parameters.platform_point[2][1] * t6;
-    let t62 = mul_add(parameters.platform_point[2][0], t3, t61);
-    let t63 = mul_add(parameters.platform_point[2][2], t9, t62);
-    let t64 = parameters.platform_point[2][1] * t15;
-    let t65 = mul_add(parameters.platform_point[2][0], t12, t64);
-    let t66 = mul_add(parameters.platform_point[2][2], t18, t65);
-    let t67 = parameters.platform_point[2][1] * t24;
-    let t68 = mul_add(parameters.platform_point[2][0], t21, t67);
-    let t69 = mul_add(parameters.platform_point[2][2], t27, t68);
-    // leg 3: platform joint from the base point
-    let t70 = parameters.base_point[2][0] + (t32 - t63);
-    let t71 = parameters.base_point[2][1] + (t34 - t66);
-    let t72 = parameters.base_point[2][2] + (t36 - t69);
-    // leg 4: platform joint from the platform origin
-    let t73 = parameters.platform_point[3][1] * t6;
-    let t74 = mul_add(parameters.platform_point[3][0], t3, t73);
-    let t75 = mul_add(parameters.platform_point[3][2], t9, t74);
-    let t76 = parameters.platform_point[3][1] * t15;
-    let t77 = mul_add(parameters.platform_point[3][0], t12, t76);
-    let t78 = mul_add(parameters.platform_point[3][2], t18, t77);
-    let t79 = parameters.platform_point[3][1] * t24;
-    let t80 = mul_add(parameters.platform_point[3][0], t21, t79);
-    let t81 = mul_add(parameters.platform_point[3][2], t27, t80);
-    // leg 4: platform joint from the base point
-    let t82 = parameters.base_point[3][0] + (t32 - t75);
-    let t83 = parameters.base_point[3][1] + (t34 - t78);
-    let t84 = parameters.base_point[3][2] + (t36 - t81);
-    // leg 5: platform joint from the platform origin
-    let t85 = parameters.platform_point[4][1] * t6;
-    let t86 = mul_add(parameters.platform_point[4][0], t3, t85);
-    let t87 = mul_add(parameters.platform_point[4][2], t9, t86);
-    let t88 = parameters.platform_point[4][1] * t15;
-    let t89 = mul_add(parameters.platform_point[4][0], t12, t88);
-    let t90 = mul_add(parameters.platform_point[4][2], t18, t89);
-    let t91 = parameters.platform_point[4][1] * t24;
-    let t92 = mul_add(parameters.platform_point[4][0], t21, t91);
-    let t93 = mul_add(parameters.platform_point[4][2], t27, t92);
-    // leg 5: platform joint from the base point
-    let t94 = parameters.base_point[4][0] + (t32 - t87);
-    let t95 = parameters.base_point[4][1] + (t34 - t90);
-    let t96 = parameters.base_point[4][2] + (t36 - t93);
-    // leg 6: platform joint from the platform origin
-    let t97 = parameters.platform_point[5][1] * t6;
-    let t98 = mul_add(parameters.platform_point[5][0], t3, t97);
-    let t99 = mul_add(parameters.platform_point[5][2], t9, t98);
-    let t100 = parameters.platform_point[5][1] * t15;
-    let t101 = mul_add(parameters.platform_point[5][0], t12, t100);
-    let t102 = mul_add(parameters.platform_point[5][2], t18, t101);
-    let t103 = parameters.platform_point[5][1] * t24;
-    let t104 = mul_add(parameters.platform_point[5][0], t21, t103);
-    let t105 = mul_add(parameters.platform_point[5][2], t27, t104);
-    // leg 6: platform joint from the base point
-    let t106 = parameters.base_point[5][0] + (t32 - t99);
-    let t107 = parameters.base_point[5][1] + (t34 - t102);
-    let t108 = parameters.base_point[5][2] + (t36 - t105);
-    // leg 1: offset of the platform joint from the actuator axis
-    let t109 = parameters.actuator_axis[0][1] * t47;
-    let t110 = mul_add(parameters.actuator_axis[0][0], t46, t109);
-    let t111 = mul_add(parameters.actuator_axis[0][2], t48, t110);
-    let t112 = neg_mul_add(parameters.actuator_axis[0][0], t111, t46);
-    let t113 = neg_mul_add(parameters.actuator_axis[0][1], t111, t47);
-    let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
-    // leg 1: extent of the rod along the actuator axis
-    let t115 = parameters.rod_length[0] * parameters.rod_length[0];
-    let t116 = mul_add(t112, t112, t113 * t113);
-    let t117 = sqrt(neg_mul_add(t114, t114, t115) - t116);
-    // leg 1: reciprocal of that extent
-    let t118 = c(1.0) / t117;
-    // leg 1: actuator length d
-    let t119 = t111 + t117;
-    // leg 2: offset of the platform joint from the actuator axis
-    let t120 = parameters.actuator_axis[1][1] * t59;
-    let t121 = mul_add(parameters.actuator_axis[1][0], t58, t120);
-    let t122 = mul_add(parameters.actuator_axis[1][2], t60, t121);
-    let t123 = neg_mul_add(parameters.actuator_axis[1][0], t122, t58);
-    let t124 = neg_mul_add(parameters.actuator_axis[1][1], t122, t59);
-    let t125 = neg_mul_add(parameters.actuator_axis[1][2], t122, t60);
-    // leg 2: extent of the rod along the actuator axis
-    let t126 = parameters.rod_length[1] * parameters.rod_length[1];
-    let t127 = mul_add(t123, t123, t124 * t124);
-    let t128 = sqrt(neg_mul_add(t125, t125, t126) - t127);
-    // leg 2: reciprocal of that extent
-    let t129 = c(1.0) / t128;
-    // leg 2: actuator length d
-    let t130 = t122 + t128;
-    // leg 3: offset of the platform joint from the actuator axis
-    let t131 = parameters.actuator_axis[2][1] * t71;
-    let t132 = mul_add(parameters.actuator_axis[2][0], t70, t131);
-    let t133 = mul_add(parameters.actuator_axis[2][2], t72, t132);
-    let t134 = neg_mul_add(parameters.actuator_axis[2][0], t133, t70);
-    let t135 = neg_mul_add(parameters.actuator_axis[2][1], t133, t71);
-    let t136 = neg_mul_add(parameters.actuator_axis[2][2], t133, t72);
-    // leg 3: extent of the rod along the actuator axis
-    let t137 = parameters.rod_length[2] * parameters.rod_length[2];
-    let t138 = mul_add(t134, t134, t135 * t135);
-    let t139 = sqrt(neg_mul_add(t136, t136, t137) - t138);
-    // leg 3: reciprocal of that extent
-    let t140 = c(1.0) / t139;
-    // leg 3: actuator length d
-    let t141 = t133 + t139;
-    // leg 4: offset of the platform joint from the actuator axis
-    let t142 = parameters.actuator_axis[3][1] * t83;
-    let t143 = mul_add(parameters.actuator_axis[3][0], t82, t142);
-    let t144 = mul_add(parameters.actuator_axis[3][2], t84, t143);
-    let t145 = neg_mul_add(parameters.actuator_axis[3][0], t144, t82);
-    let t146 = neg_mul_add(parameters.actuator_axis[3][1], t144, t83);
-    let t147 = neg_mul_add(parameters.actuator_axis[3][2], t144, t84);
-    // leg 4: extent of the rod along the actuator axis
-    let t148 = parameters.rod_length[3] * parameters.rod_length[3];
-    let t149 = mul_add(t145, t145, t146 * t146);
-    let t150 = sqrt(neg_mul_add(t147, t147, t148) - t149);
-    // leg 4: reciprocal of that extent
-    let t151 = c(1.0) / t150;
-    // leg 4: actuator length d
-    let t152 = t144 + t150;
-    // leg 5: offset of the platform joint from the actuator axis
-    let t153 = parameters.actuator_axis[4][1] * t95;
-    let t154 = mul_add(parameters.actuator_axis[4][0], t94, t153);
-    let t155 = mul_add(parameters.actuator_axis[4][2], t96, t154);
-    let t156 = neg_mul_add(parameters.actuator_axis[4][0], t155, t94);
-    let t157 = neg_mul_add(parameters.actuator_axis[4][1], t155, t95);
-    let t158 = neg_mul_add(parameters.actuator_axis[4][2], t155, t96);
-    // leg 5: extent of the rod along the actuator axis
-    let t159 = parameters.rod_length[4] * parameters.rod_length[4];
-    let t160 = mul_add(t156, t156, t157 * t157);
-    let t161 = sqrt(neg_mul_add(t158, t158, t159) - t160);
-    // leg 5: reciprocal of that extent
-    let t162 = c(1.0) / t161;
-    // leg 5: actuator length d
-    let t163 = t155 + t161;
-    // leg 6: offset of the platform joint from the actuator axis
-    let t164 = parameters.actuator_axis[5][1] * t107;
-    let t165 = mul_add(parameters.actuator_axis[5][0], t106, t164);
-    let t166 = mul_add(parameters.actuator_axis[5][2], t108, t165);
-    let t167 = neg_mul_add(parameters.actuator_axis[5][0], t166, t106);
-    let t168 = neg_mul_add(parameters.actuator_axis[5][1], t166, t107);
-    let t169 = neg_mul_add(parameters.actuator_axis[5][2], t166, t108);
-    // leg 6: extent of the rod along the actuator axis
-    let t170 = parameters.rod_length[5] * parameters.rod_length[5];
-    let t171 = mul_add(t167, t167, t168 * t168);
-    let t172 = sqrt(neg_mul_add(t169, t169, t170) - t171);
-    // leg 6: reciprocal of that extent
-    let t173 = c(1.0) / t172;
-    // leg 6: actuator length d
-    let t174 = t166 + t172;
-    // leg 1: gradient of the actuator length by the platform joint
-    let t175 = neg_mul_add(t112, t118, parameters.actuator_axis[0][0]);
-    let t176 = neg_mul_add(t113, t118, parameters.actuator_axis[0][1]);
-    let t177 = neg_mul_add(t114, t118, parameters.actuator_axis[0][2]);
-    // leg 2: gradient of the actuator length by the platform joint
-    let t178 = neg_mul_add(t123, t129, parameters.actuator_axis[1][0]);
-    let t179 = neg_mul_add(t124, t129, parameters.actuator_axis[1][1]);
-    let t180 = neg_mul_add(t125, t129, parameters.actuator_axis[1][2]);
-    // leg 3: gradient of the actuator length by the platform joint
-    let t181 = neg_mul_add(t134, t140, parameters.actuator_axis[2][0]);
-    let t182 = neg_mul_add(t135, t140, parameters.actuator_axis[2][1]);
-    let t183 = neg_mul_add(t136, t140, parameters.actuator_axis[2][2]);
-    // leg 4: gradient of the actuator length by the platform joint
-    let t184 = neg_mul_add(t145, t151, parameters.actuator_axis[3][0]);
-    let t185 = neg_mul_add(t146, t151, parameters.actuator_axis[3][1]);
-    let t186 = neg_mul_add(t147, t151, parameters.actuator_axis[3][2]);
-    // leg 5: gradient of the actuator length by the platform joint
-    let t187 = neg_mul_add(t156, t162, parameters.actuator_axis[4][0]);
-    let t188 = neg_mul_add(t157, t162, parameters.actuator_axis[4][1]);
-    let t189 = neg_mul_add(t158, t162, parameters.actuator_axis[4][2]);
-    // leg 6: gradient of the actuator length by the platform joint
-    let t190 = neg_mul_add(t167, t173, parameters.actuator_axis[5][0]);
-    let t191 = neg_mul_add(t168, t173, parameters.actuator_axis[5][1]);
-    let t192 = neg_mul_add(t169, t173, parameters.actuator_axis[5][2]);
-    // leg 1: rod's end mass at the Hooke joint
-    let t193 = parameters.rod_com_fraction[0] - c(1.0);
-    let t194 = parameters.rod_inertia[0] / t115;
-    let t195 = mul_add(t193, parameters.rod_mass[0] * t193, t194);
-    // leg 1: leg mass that moves with the platform joint
-    let t196 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
-    let t197 = mul_add(parameters.rod_com_fraction[0], t196, t194);
-    // leg 1: rod's inertial coupling between its ends
-    let t198 = mul_add(t193, t196, t194);
-    // leg 2: rod's end mass at the Hooke joint
-    let t199 = parameters.rod_com_fraction[1] - c(1.0);
-    let t200 = parameters.rod_inertia[1] / t126;
-    let t201 = mul_add(t199, parameters.rod_mass[1] * t199, t200);
-    // leg 2: leg mass that moves with the platform joint
-    let t202 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
-    let t203 = mul_add(parameters.rod_com_fraction[1], t202, t200);
-    // leg 2: rod's inertial coupling between its ends
-    let t204 = mul_add(t199, t202, t200);
-    // leg 3: rod's end mass at the Hooke joint
-    let t205 = parameters.rod_com_fraction[2] - c(1.0);
-    let t206 = parameters.rod_inertia[2] / t137;
-    let t207 = mul_add(t205, parameters.rod_mass[2] * t205, t206);
-    // leg 3: leg mass that moves with the platform joint
-    let t208 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
-    let t209 = mul_add(parameters.rod_com_fraction[2], t208, t206);
-    // leg 3: rod's inertial coupling between its ends
-    let t210 = mul_add(t205, t208, t206);
-    // leg 4: rod's end mass at the Hooke joint
-    let t211 = parameters.rod_com_fraction[3] - c(1.0);
-    let t212 = parameters.rod_inertia[3] / t148;
-    let t213 = mul_add(t211, parameters.rod_mass[3] * t211, t212);
-    // leg 4: leg mass that moves with the platform joint
-    let t214 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
-    let t215 = mul_add(parameters.rod_com_fraction[3], t214, t212);
-    // leg 4: rod's inertial coupling between its ends
-    let t216 = mul_add(t211, t214, t212);
-    // leg 5: rod's end mass at the Hooke joint
-    let t217 = parameters.rod_com_fraction[4] - c(1.0);
-    let t218 = parameters.rod_inertia[4] / t159;
-    let t219 = mul_add(t217, parameters.rod_mass[4] * t217, t218);
-    // leg 5: leg mass that moves with the platform joint
-    let t220 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
-    let t221 = mul_add(parameters.rod_com_fraction[4], t220, t218);
-    // leg 5: rod's inertial coupling between its ends
-    let t222 = mul_add(t217, t220, t218);
-    // leg 6: rod's end mass at the Hooke joint
-    let t223 = parameters.rod_com_fraction[5] - c(1.0);
-    let t224 = parameters.rod_inertia[5] / t170;
-    let t225 = mul_add(t223, parameters.rod_mass[5] * t223, t224);
-    // leg 6: leg mass that moves with the platform joint
-    let t226 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
-    let t227 = mul_add(parameters.rod_com_fraction[5], t226, t224);
-    // leg 6: rod's inertial coupling between its ends
-    let t228 = mul_add(t223, t226, t224);
-    // mass of payload and platform-side leg ends
-    let t229 = t221 + (t215 + (t209 + (t203 + (parameters.payload_mass + t197))));
-    let t230 = t227 + t229;
-    // first moment of payload and platform-side leg ends
-    let t231 = parameters.platform_point[0][0] * t197;
-    let t232 = mul_add(parameters.payload_mass, parameters.payload_com[0], t231);
-    let t233 = mul_add(parameters.platform_point[1][0], t203, t232);
-    let t234 = mul_add(parameters.platform_point[2][0], t209, t233);
-    let t235 = mul_add(parameters.platform_point[3][0], t215, t234);
-    let t236 = mul_add(parameters.platform_point[4][0], t221, t235);
-    let t237 = mul_add(parameters.platform_point[5][0], t227, t236);
-    let t238 = parameters.platform_point[0][1] * t197;
-    let t239 = mul_add(parameters.payload_mass, parameters.payload_com[1], t238);
-    let t240 = mul_add(parameters.platform_point[1][1], t203, t239);
-    let t241 = mul_add(parameters.platform_point[2][1], t209, t240);
-    let t242 = mul_add(parameters.platform_point[3][1], t215, t241);
-    let t243 = mul_add(parameters.platform_point[4][1], t221, t242);
-    let t244 = mul_add(parameters.platform_point[5][1], t227, t243);
-    let t245 = parameters.platform_point[0][2] * t197;
-    let t246 = mul_add(parameters.payload_mass, parameters.payload_com[2], t245);
-    let t247 = mul_add(parameters.platform_point[1][2], t203, t246);
-    let t248 = mul_add(parameters.platform_point[2][2], t209, t247);
-    let t249 = mul_add(parameters.platform_point[3][2], t215, t248);
-    let t250 = mul_add(parameters.platform_point[4][2], t221, t249);
-    let t251 = mul_add(parameters.platform_point[5][2], t227, t250);
-    // second moment of payload and platform-side leg ends
-    let t252 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
-    let t253 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
-    let t254 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
-    let t255 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
-    let t256 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
-    let t257 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
-    let t258 = parameters.payload_com[0] * parameters.payload_com[0];
-    let t259 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t260 = parameters.payload_inertia[2][2] + t259;
-    let t261 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[0][0]);
-    let t262 = neg_mul_add(parameters.payload_mass, t258, t261);
-    let t263 = neg_mul_add(t203, t256, neg_mul_add(t197, t257, t262));
-    let t264 = neg_mul_add(t215, t254, neg_mul_add(t209, t255, t263));
-    let t265 = neg_mul_add(t227, t252, neg_mul_add(t221, t253, t264));
-    let t266 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
-    let t267 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
-    let t268 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
-    let t269 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
-    let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
-    let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
-    let t272 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
-    let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
-    let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
-    let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
-    let t277 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
-    let t278 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
-    let t279 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
-    let t280 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
-    let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
-    let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
-    let t283 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
-    let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
-    let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
-    let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
-    let t288 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
-    let t289 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
-    let t290 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
-    let t291 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
-    let t292 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
-    let t293 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
-    let t294 = parameters.payload_com[1] * parameters.payload_com[1];
-    let t295 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[1][1]);
-    let t296 = neg_mul_add(parameters.payload_mass, t294, t295);
-    let t297 = neg_mul_add(t203, t292, neg_mul_add(t197, t293, t296));
-    let t298 = neg_mul_add(t215, t290, neg_mul_add(t209, t291, t297));
-    let t299 = neg_mul_add(t227, t288, neg_mul_add(t221, t289, t298));
-    let t300 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
-    let t301 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
-    let t302 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
-    let t303 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
-    let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
-    let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
-    let t306 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
-    let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
-    let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
-    let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
-    let t311 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
-    let t312 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
-    let t313 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
-    let t314 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
-    let t315 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
-    let t316 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
-    let t317 = parameters.payload_com[2] * parameters.payload_com[2];
-    let t318 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[2][2]);
-    let t319 = neg_mul_add(parameters.payload_mass, t317, t318);
-    let t320 = neg_mul_add(t203, t315, neg_mul_add(t197, t316, t319));
-    let t321 = neg_mul_add(t215, t313, neg_mul_add(t209, t314, t320));
-    let t322 = neg_mul_add(t227, t311, neg_mul_add(t221, t312, t321));
-    // angular velocity of the base
-    let t323 = base_rotation[1][0] * base_velocity[4];
-    let t324 = mul_add(base_rotation[0][0], base_velocity[3], t323);
-    let t325 = mul_add(base_rotation[2][0], base_velocity[5], t324);
-    let t326 = base_rotation[1][1] * base_velocity[4];
-    let t327 = mul_add(base_rotation[0][1], base_velocity[3], t326);
-    let t328 = mul_add(base_rotation[2][1], base_velocity[5], t327);
-    let t329 = base_rotation[1][2] * base_velocity[4];
-    let t330 = mul_add(base_rotation[0][2], base_velocity[3], t329);
-    let t331 = mul_add(base_rotation[2][2], base_velocity[5], t330);
-    // angular velocity of the platform
-    let t332 = base_rotation[1][0] * platform_velocity[4];
-    let t333 = mul_add(base_rotation[0][0], platform_velocity[3], t332);
-    let t334 = mul_add(base_rotation[2][0], platform_velocity[5], t333);
-    let t335 = base_rotation[1][1] * platform_velocity[4];
-    let t336 = mul_add(base_rotation[0][1], platform_velocity[3], t335);
-    let t337 = mul_add(base_rotation[2][1], platform_velocity[5], t336);
-    let t338 = base_rotation[1][2] * platform_velocity[4];
-    let t339 = mul_add(base_rotation[0][2], platform_velocity[3], t338);
-    let t340 = mul_add(base_rotation[2][2], platform_velocity[5], t339);
-    // angular velocity of the platform relative to the base
-    let t341 = t325 - t334;
-    let t342 = t328 - t337;
-    let t343 = t331 - t340;
-    // velocity of the platform origin relative to the base
-    let t344 = base_velocity[2] - platform_velocity[2];
-    let t345 = base_velocity[0] - platform_velocity[0];
-    let t346 = base_velocity[1] - platform_velocity[1];
-    let t347 = mul_add(base_rotation[0][0], t345, base_rotation[1][0] * t346);
-    let t348 = neg_mul_add(t36, t328, mul_add(base_rotation[2][0], t344, t347));
-    let t349 = mul_add(t34, t331, t348);
-    let t350 = mul_add(base_rotation[0][1], t345, base_rotation[1][1] * t346);
-    let t351 = neg_mul_add(t32, t331, mul_add(base_rotation[2][1], t344, t350));
-    let t352 = mul_add(t36, t325, t351);
-    let t353 = mul_add(base_rotation[0][2], t345, base_rotation[1][2] * t346);
-    let t354 = neg_mul_add(t34, t325, mul_add(base_rotation[2][2], t344, t353));
-    let t355 = mul_add(t32, t328, t354);
-    // leg 1: velocity of the platform joint relative to the base
-    let t356 = neg_mul_add(t42, t343, mul_add(t45, t342, t349));
-    let t357 = neg_mul_add(t45, t341, mul_add(t39, t343, t352));
-    let t358 = neg_mul_add(t39, t342, mul_add(t42, t341, t355));
-    // leg 2: velocity of the platform joint relative to the base
-    let t359 = neg_mul_add(t54, t343, mul_add(t57, t342, t349));
-    let t360 = neg_mul_add(t57, t341, mul_add(t51, t343, t352));
-    let t361 = neg_mul_add(t51, t342, mul_add(t54, t341, t355));
-    // leg 3: velocity of the platform joint relative to the base
-    let t362 = neg_mul_add(t66, t343, mul_add(t69, t342, t349));
-    let t363 = neg_mul_add(t69, t341, mul_add(t63, t343, t352));
-    let t364 = neg_mul_add(t63, t342, mul_add(t66, t341, t355));
-    // leg 4: velocity of the platform joint relative to the base
-    let t365 = neg_mul_add(t78, t343, mul_add(t81, t342, t349));
-    let t366 = neg_mul_add(t81, t341, mul_add(t75, t343, t352));
-    let t367 = neg_mul_add(t75, t342, mul_add(t78, t341, t355));
-    // leg 5: velocity of the platform joint relative to the base
-    let t368 = neg_mul_add(t90, t343, mul_add(t93, t342, t349));
-    let t369 = neg_mul_add(t93, t341, mul_add(t87, t343, t352));
-    let t370 = neg_mul_add(t87, t342, mul_add(t90, t341, t355));
-    // leg 6: velocity of the platform joint relative to the base
-    let t371 = neg_mul_add(t102, t343, mul_add(t105, t342, t349));
-    let t372 = neg_mul_add(t105, t341, mul_add(t99, t343, t352));
-    let t373 = neg_mul_add(t99, t342, mul_add(t102, t341, t355));
-    // leg 1: rate of the offset from the actuator axis
-    let t374 = parameters.actuator_axis[0][1] * t357;
-    let t375 = mul_add(parameters.actuator_axis[0][0], t356, t374);
-    let t376 = mul_add(parameters.actuator_axis[0][2], t358, t375);
-    let t377 = neg_mul_add(parameters.actuator_axis[0][0], t376, t356);
-    let t378 = neg_mul_add(parameters.actuator_axis[0][1], t376, t357);
-    let t379 = neg_mul_add(parameters.actuator_axis[0][2], t376, t358);
-    // leg 1: rate of the rod's extent along the actuator axis
-    let t380 = mul_add(t177, t358, mul_add(t175, t356, t176 * t357));
-    let t381 = t376 - t380;
-    // leg 2: rate of the offset from the actuator axis
-    let t382 = parameters.actuator_axis[1][1] * t360;
-    let t383 = mul_add(parameters.actuator_axis[1][0], t359, t382);
-    let t384 = mul_add(parameters.actuator_axis[1][2], t361, t383);
-    let t385 = neg_mul_add(parameters.actuator_axis[1][0], t384, t359);
-    let t386 = neg_mul_add(parameters.actuator_axis[1][1], t384, t360);
-    let t387 = neg_mul_add(parameters.actuator_axis[1][2], t384, t361);
-    // leg 2: rate of the rod's extent along the actuator axis
-    let t388 = mul_add(t180, t361, mul_add(t178, t359, t179 * t360));
-    let t389 = t384 - t388;
-    // leg 3: rate of the offset from the actuator axis
-    let t390 = parameters.actuator_axis[2][1] * t363;
-    let t391 = mul_add(parameters.actuator_axis[2][0], t362, t390);
-    let t392 = mul_add(parameters.actuator_axis[2][2], t364, t391);
-    let t393 = neg_mul_add(parameters.actuator_axis[2][0], t392, t362);
-    let t394 = neg_mul_add(parameters.actuator_axis[2][1], t392, t363);
-    let t395 = neg_mul_add(parameters.actuator_axis[2][2], t392, t364);
-    // leg 3: rate of the rod's extent along the actuator axis
-    let t396 = mul_add(t183, t364, mul_add(t181, t362, t182 * t363));
-    let t397 = t392 - t396;
-    // leg 4: rate of the offset from the actuator axis
-    let t398 = parameters.actuator_axis[3][1] * t366;
-    let t399 = mul_add(parameters.actuator_axis[3][0], t365, t398);
-    let t400 = mul_add(parameters.actuator_axis[3][2], t367, t399);
-    let t401 = neg_mul_add(parameters.actuator_axis[3][0], t400, t365);
-    let t402 = neg_mul_add(parameters.actuator_axis[3][1], t400, t366);
-    let t403 = neg_mul_add(parameters.actuator_axis[3][2], t400, t367);
-    // leg 4: rate of the rod's extent along the actuator axis
-    let t404 = mul_add(t186, t367, mul_add(t184, t365, t185 * t366));
-    let t405 = t400 - t404;
-    // leg 5: rate of the offset from the actuator axis
-    let t406 = parameters.actuator_axis[4][1] * t369;
-    let t407 = mul_add(parameters.actuator_axis[4][0], t368, t406);
-    let t408 = mul_add(parameters.actuator_axis[4][2], t370, t407);
-    let t409 = neg_mul_add(parameters.actuator_axis[4][0], t408, t368);
-    let t410 = neg_mul_add(parameters.actuator_axis[4][1], t408, t369);
-    let t411 = neg_mul_add(parameters.actuator_axis[4][2], t408, t370);
-    // leg 5: rate of the rod's extent along the actuator axis
-    let t412 = mul_add(t189, t370, mul_add(t187, t368, t188 * t369));
-    let t413 = t408 - t412;
-    // leg 6: rate of the offset from the actuator axis
-    let t414 = parameters.actuator_axis[5][1] * t372;
-    let t415 = mul_add(parameters.actuator_axis[5][0], t371, t414);
-    let t416 = mul_add(parameters.actuator_axis[5][2], t373, t415);
-    let t417 = neg_mul_add(parameters.actuator_axis[5][0], t416, t371);
-    let t418 = neg_mul_add(parameters.actuator_axis[5][1], t416, t372);
-    let t419 = neg_mul_add(parameters.actuator_axis[5][2], t416, t373);
-    // leg 6: rate of the rod's extent along the actuator axis
-    let t420 = mul_add(t192, t373, mul_add(t190, t371, t191 * t372));
-    let t421 = t416 - t420;
-    // acceleration of the base origin less gravity
-    let t422 = base_acceleration[2] - parameters.gravity[2];
-    let t423 = base_acceleration[0] - parameters.gravity[0];
-    let t424 = base_acceleration[1] - parameters.gravity[1];
-    let t425 = mul_add(base_rotation[0][0], t423, base_rotation[1][0] * t424);
-    let t426 = mul_add(base_rotation[2][0], t422, t425);
-    let t427 = mul_add(base_rotation[0][1], t423, base_rotation[1][1] * t424);
-    let t428 = mul_add(base_rotation[2][1], t422, t427);
-    let t429 = mul_add(base_rotation[0][2], t423, base_rotation[1][2] * t424);
-    let t430 = mul_add(base_rotation[2][2], t422, t429);
-    // angular acceleration of the base
-    let t431 = base_rotation[1][0] * base_acceleration[4];
-    let t432 = mul_add(base_rotation[0][0], base_acceleration[3], t431);
-    let t433 = mul_add(base_rotation[2][0], base_acceleration[5], t432);
-    let t434 = base_rotation[1][1] * base_acceleration[4];
-    let t435 = mul_add(base_rotation[0][1], base_acceleration[3], t434);
-    let t436 = mul_add(base_rotation[2][1], base_acceleration[5], t435);
-    let t437 = base_rotation[1][2] * base_acceleration[4];
-    let t438 = mul_add(base_rotation[0][2], base_acceleration[3], t437);
-    let t439 = mul_add(base_rotation[2][2], base_acceleration[5], t438);
-    // acceleration per base coordinate of points that move with the base
-    let t440 = mul_add(t328, t328, t331 * t331);
-    let t441 = neg_mul_add(t325, t328, t439);
-    let t442 = mul_add(t325, t331, t436);
-    let t443 = mul_add(t325, t328, t439);
-    let t444 = t325 * t325;
-    let t445 = mul_add(t331, t331, t444);
-    let t446 = neg_mul_add(t328, t331, t433);
-    let t447 = neg_mul_add(t325, t331, t436);
-    let t448 = mul_add(t328, t331, t433);
-    let t449 = mul_add(t328, t328, t444);
-    // acceleration of the platform origin less gravity
-    let t450 = platform_acceleration[2] - parameters.gravity[2];
-    let t451 = platform_acceleration[0] - parameters.gravity[0];
-    let t452 = platform_acceleration[1] - parameters.gravity[1];
-    let t453 = mul_add(base_rotation[0][0], t451, base_rotation[1][0] * t452);
-    let t454 = mul_add(base_rotation[2][0], t450, t453);
-    let t455 = mul_add(base_rotation[0][1], t451, base_rotation[1][1] * t452);
-    let t456 = mul_add(base_rotation[2][1], t450, t455);
-    let t457 = mul_add(base_rotation[0][2], t451, base_rotation[1][2] * t452);
-    let t458 = mul_add(base_rotation[2][2], t450, t457);
-    // angular acceleration of the platform
-    let t459 = base_rotation[1][0] * platform_acceleration[4];
-    let t460 = mul_add(base_rotation[0][0], platform_acceleration[3], t459);
-    let t461 = mul_add(base_rotation[2][0], platform_acceleration[5], t460);
-    let t462 = base_rotation[1][1] * platform_acceleration[4];
-    let t463 = mul_add(base_rotation[0][1], platform_acceleration[3], t462);
-    let t464 = mul_add(base_rotation[2][1], platform_acceleration[5], t463);
-    let t465 = base_rotation[1][2] * platform_acceleration[4];
-    let t466 = mul_add(base_rotation[0][2], platform_acceleration[3], t465);
-    let t467 = mul_add(base_rotation[2][2], platform_acceleration[5], t466);
-    // acceleration per platform coordinate of points of the platform
-    let t468 = mul_sub(t3, t340, t21 * t334);
-    let t469 = mul_sub(t12, t334, t3 * t337);
-    let t470 = mul_add(t337, t469, mul_sub(t21, t464, t12 * t467));
-    let t471 = neg_mul_add(t340, t468, t470);
-    let t472 = mul_sub(t6, t340, t24 * t334);
-    let t473 = mul_sub(t15, t334, t6 * t337);
-    let t474 = mul_add(t337, t473, mul_sub(t24, t464, t15 * t467));
-    let t475 = neg_mul_add(t340, t472, t474);
-    let t476 = mul_sub(t9, t340, t27 * t334);
-    let t477 = mul_sub(t18, t334, t9 * t337);
-    let t478 = mul_add(t337, t477, mul_sub(t27, t464, t18 * t467));
-    let t479 = neg_mul_add(t340, t476, t478);
-    let t480 = mul_sub(t21, t337, t12 * t340);
-    let t481 = mul_add(t340, t480, mul_sub(t3, t467, t21 * t461));
-    let t482 = neg_mul_add(t334, t469, t481);
-    let t483 = mul_sub(t24, t337, t15 * t340);
-    let t484 = mul_add(t340, t483, mul_sub(t6, t467, t24 * t461));
-    let t485 = neg_mul_add(t334, t473, t484);
-    let t486 = mul_sub(t27, t337, t18 * t340);
-    let t487 = mul_add(t340, t486, mul_sub(t9, t467, t27 * t461));
-    let t488 = neg_mul_add(t334, t477, t487);
-    let t489 = mul_add(t334, t468, mul_sub(t12, t461, t3 * t464));
-    let t490 = neg_mul_add(t337, t480, t489);
-    let t491 = mul_add(t334, t472, mul_sub(t15, t461, t6 * t464));
-    let t492 = neg_mul_add(t337, t483, t491);
-    let t493 = mul_add(t334, t476, mul_sub(t18, t461, t9 * t464));
-    let t494 = neg_mul_add(t337, t486, t493);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t495 = neg_mul_add(t36, t442, t426 - t454);
-    let t496 = mul_add(t32, t440, t34 * t441) + t495;
-    let t497 = t328 + t337;
-    let t498 = t331 + t340;
-    let t499 = t496 - mul_sub(t355, t497, t352 * t498);
-    let t500 = mul_sub(t32, t443, t34 * t445);
-    let t501 = mul_add(t36, t446, t428 - t456) - t500;
-    let t502 = t325 + t334;
-    let t503 = t501 - mul_sub(t349, t498, t355 * t502);
-    let t504 = mul_add(t36, t449, t430 - t458);
-    let t505 = mul_sub(t32, t447, t34 * t448) + t504;
-    let t506 = t505 - mul_sub(t352, t502, t349 * t497);
-    // rate of that angular velocity
-    let t507 = mul_add(t331, t342, neg_mul_add(t328, t343, t433 - t461));
-    let t508 = mul_add(t325, t343, neg_mul_add(t331, t341, t436 - t464));
-    let t509 = mul_add(t328, t341, neg_mul_add(t325, t342, t439 - t467));
-    // leg 1: acceleration of the platform joint relative to the base
-    let t510 = neg_mul_add(t42, t509, mul_add(t45, t508, t499));
-    let t511 = t510 - mul_sub(t342, t358, t343 * t357);
-    let t512 = neg_mul_add(t45, t507, mul_add(t39, t509, t503));
-    let t513 = t512 - mul_sub(t343, t356, t341 * t358);
-    let t514 = neg_mul_add(t39, t508, mul_add(t42, t507, t506));
-    let t515 = t514 - mul_sub(t341, t357, t342 * t356);
-    // leg 2: acceleration of the platform joint relative to the base
-    let t516 = neg_mul_add(t54, t509, mul_add(t57, t508, t499));
-    let t517 = t516 - mul_sub(t342, t361, t343 * t360);
-    let t518 = neg_mul_add(t57, t507, mul_add(t51, t509, t503));
-    let t519 = t518 - mul_sub(t343, t359, t341 * t361);
-    let t520 = neg_mul_add(t51, t508, mul_add(t54, t507, t506));
-    let t521 = t520 - mul_sub(t341, t360, t342 * t359);
-    // leg 3: acceleration of the platform joint relative to the base
-    let t522 = neg_mul_add(t66, t509, mul_add(t69, t508, t499));
-    let t523 = t522 - mul_sub(t342, t364, t343 * t363);
-    let t524 = neg_mul_add(t69, t507, mul_add(t63, t509, t503));
-    let t525 = t524 - mul_sub(t343, t362, t341 * t364);
-    let t526 = neg_mul_add(t63, t508, mul_add(t66, t507, t506));
-    let t527 = t526 - mul_sub(t341, t363, t342 * t362);
-    // leg 4: acceleration of the platform joint relative to the base
-    let t528 = neg_mul_add(t78, t509, mul_add(t81, t508, t499));
-    let t529 = t528 - mul_sub(t342, t367, t343 * t366);
-    let t530 = neg_mul_add(t81, t507, mul_add(t75, t509, t503));
-    let t531 = t530 - mul_sub(t343, t365, t341 * t367);
-    let t532 = neg_mul_add(t75, t508, mul_add(t78, t507, t506));
-    let t533 = t532 - mul_sub(t341, t366, t342 * t365);
-    // leg 5: acceleration of the platform joint relative to the base
-    let t534 = neg_mul_add(t90, t509, mul_add(t93, t508, t499));
-    let t535 = t534 - mul_sub(t342, t370, t343 * t369);
-    let t536 = neg_mul_add(t93, t507, mul_add(t87, t509, t503));
-    let t537 = t536 - mul_sub(t343, t368, t341 * t370);
-    let t538 = neg_mul_add(t87, t508, mul_add(t90, t507, t506));
-    let t539 = t538 - mul_sub(t341, t369, t342 * t368);
-    // leg 6: acceleration of the platform joint relative to the base
-    let t540 = neg_mul_add(t102, t509, mul_add(t105, t508, t499));
-    let t541 = t540 - mul_sub(t342, t373, t343 * t372);
-    let t542 = neg_mul_add(t105, t507, mul_add(t99, t509, t503));
-    let t543 = t542 - mul_sub(t343, t371, t341 * t373);
-    let t544 = neg_mul_add(t99, t508, mul_add(t102, t507, t506));
-    let t545 = t544 - mul_sub(t341, t372, t342 * t371);
-    // leg 1: actuator acceleration d''
-    let t546 = mul_add(t379, t379, mul_add(t377, t377, t378 * t378));
-    let t547 = mul_add(t177, t515, mul_add(t175, t511, t176 * t513));
-    let t548 = neg_mul_add(t118, mul_add(t381, t381, t546), t547);
-    // leg 2: actuator acceleration d''
-    let t549 = mul_add(t387, t387, mul_add(t385, t385, t386 * t386));
-    let t550 = mul_add(t180, t521, mul_add(t178, t517, t179 * t519));
-    let t551 = neg_mul_add(t129, mul_add(t389, t389, t549), t550);
-    // leg 3: actuator acceleration d''
-    let t552 = mul_add(t395, t395, mul_add(t393, t393, t394 * t394));
-    let t553 = mul_add(t183, t527, mul_add(t181, t523, t182 * t525));
-    let t554 = neg_mul_add(t140, mul_add(t397, t397, t552), t553);
-    // leg 4: actuator acceleration d''
-    let t555 = mul_add(t403, t403, mul_add(t401, t401, t402 * t402));
-    let t556 = mul_add(t186, t533, mul_add(t184, t529, t185 * t531));
-    let t557 = neg_mul_add(t151, mul_add(t405, t405, t555), t556);
-    // leg 5: actuator acceleration d''
-    let t558 = mul_add(t411, t411, mul_add(t409, t409, t410 * t410));
-    let t559 = mul_add(t189, t539, mul_add(t187, t535, t188 * t537));
-    let t560 = neg_mul_add(t162, mul_add(t413, t413, t558), t559);
-    // leg 6: actuator acceleration d''
-    let t561 = mul_add(t419, t419, mul_add(t417, t417, t418 * t418));
-    let t562 = mul_add(t192, t545, mul_add(t190, t541, t191 * t543));
-    let t563 = neg_mul_add(t173, mul_add(t421, t421, t561), t562);
-    // leg 1: leg inertia less weight along the actuator
-    let t564 = c(2.0) * t380;
-    let t565 = parameters.actuator_axis[0][1] * t331;
-    let t566 = mul_sub(parameters.actuator_axis[0][2], t328, t565);
-    let t567 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
-    let t568 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
-    let t569 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
-    let t570 = mul_add(t442, t567, t426) - mul_add(t440, t568, t441 * t569);
-    let t571 = neg_mul_add(t564, t566, t570);
-    let t572 = neg_mul_add(parameters.actuator_axis[0][0], t548, t571);
-    let t573 = parameters.actuator_axis[0][2] * t325;
-    let t574 = mul_sub(parameters.actuator_axis[0][0], t331, t573);
-    let t575 = mul_sub(t443, t568, t445 * t569);
-    let t576 = neg_mul_add(t564, t574, t575 + neg_mul_add(t446, t567, t428));
-    let t577 = neg_mul_add(parameters.actuator_axis[0][1], t548, t576);
-    let t578 = parameters.actuator_axis[0][0] * t328;
-    let t579 = mul_sub(parameters.actuator_axis[0][1], t325, t578);
-    let t580 = mul_sub(t447, t568, t448 * t569);
-    let t581 = neg_mul_add(t564, t579, neg_mul_add(t449, t567, t430) - t580);
-    let t582 = neg_mul_add(parameters.actuator_axis[0][2], t548, t581);
-    let t583 = mul_add(t579, t579, mul_add(t566, t566, t574 * t574));
-    let t584 = parameters.actuator_axis[0][1] * t577;
-    let t585 = mul_add(parameters.actuator_axis[0][0], t572, t584);
-    let t586 = mul_add(parameters.actuator_axis[0][2], t582, t585);
-    let t587 = mul_add(parameters.mover_offset[0], t583, t586);
-    let t588 = parameters.platform_point[0][1] * t492;
-    let t589 = mul_add(parameters.platform_point[0][2], t494, t458);
-    let t590 = mul_add(parameters.platform_point[0][0], t490, t588) + t589;
-    let t591 = parameters.platform_point[0][1] * t475;
-    let t592 = mul_add(parameters.platform_point[0][2], t479, t454);
-    let t593 = mul_add(parameters.platform_point[0][0], t471, t591) + t592;
-    let t594 = parameters.platform_point[0][1] * t485;
-    let t595 = mul_add(parameters.platform_point[0][2], t488, t456);
-    let t596 = mul_add(parameters.platform_point[0][0], t482, t594) + t595;
-    let t597 = parameters.actuator_axis[0][1] * t596;
-    let t598 = mul_add(parameters.actuator_axis[0][0], t593, t597);
-    let t599 = t198 * mul_add(parameters.actuator_axis[0][2], t590, t598);
-    let t600 = mul_add(parameters.mover_mass[0], t587, mul_sub(t195, t586, t599));
-    // leg 1: remaining leg inertia less weight at the platform joint
-    let t601 = t198 * t572;
-    let t602 = t198 * t577;
-    let t603 = t198 * t582;
-    // leg 2: leg inertia less weight along the actuator
-    let t604 = c(2.0) * t388;
-    let t605 = parameters.actuator_axis[1][1] * t331;
-    let t606 = mul_sub(parameters.actuator_axis[1][2], t328, t605);
-    let t607 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
-    let t608 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
-    let t609 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
-    let t610 = mul_add(t442, t607, t426) - mul_add(t440, t608, t441 * t609);
-    let t611 = neg_mul_add(t604, t606, t610);
-    let t612 = neg_mul_add(parameters.actuator_axis[1][0], t551, t611);
-    let t613 = parameters.actuator_axis[1][2] * t325;
-    let t614 = mul_sub(parameters.actuator_axis[1][0], t331, t613);
-    let t615 = mul_sub(t443, t608, t445 * t609);
-    let t616 = neg_mul_add(t604, t614, t615 + neg_mul_add(t446, t607, t428));
-    let t617 = neg_mul_add(parameters.actuator_axis[1][1], t551, t616);
-    let t618 = parameters.actuator_axis[1][0] * t328;
-    let t619 = mul_sub(parameters.actuator_axis[1][1], t325, t618);
-    let t620 = mul_sub(t447, t608, t448 * t609);
-    let t621 = neg_mul_add(t604, t619, neg_mul_add(t449, t607, t430) - t620);
-    let t622 = neg_mul_add(parameters.actuator_axis[1][2], t551, t621);
-    let t623 = mul_add(t619, t619, mul_add(t606, t606, t614 * t614));
-    let t624 = parameters.actuator_axis[1][1] * t617;
-    let t625 = mul_add(parameters.actuator_axis[1][0], t612, t624);
-    let t626 = mul_add(parameters.actuator_axis[1][2], t622, t625);
-    let t627 = mul_add(parameters.mover_offset[1], t623, t626);
-    let t628 = parameters.platform_point[1][1] * t492;
-    let t629 = mul_add(parameters.platform_point[1][2], t494, t458);
-    let t630 = mul_add(parameters.platform_point[1][0], t490, t628) + t629;
-    let t631 = parameters.platform_point[1][1] * t475;
-    let t632 = mul_add(parameters.platform_point[1][2], t479, t454);
-    let t633 = mul_add(parameters.platform_point[1][0], t471, t631) + t632;
-    let t634 = parameters.platform_point[1][1] * t485;
-    let t635 = mul_add(parameters.platform_point[1][2], t488, t456);
-    let t636 = mul_add(parameters.platform_point[1][0], t482, t634) + t635;
-    let t637 = parameters.actuator_axis[1][1] * t636;
-    let t638 = mul_add(parameters.actuator_axis[1][0], t633, t637);
-    let t639 = t204 * mul_add(parameters.actuator_axis[1][2], t630, t638);
-    let t640 = mul_add(parameters.mover_mass[1], t627, mul_sub(t201, t626, t639));
-    // leg 2: remaining leg inertia less weight at the platform joint
-    let t641 = t204 * t612;
-    let t642 = t204 * t617;
-    let t643 = t204 * t622;
-    // leg 3: leg inertia less weight along the actuator
-    let t644 = c(2.0) * t396;
-    let t645 = parameters.actuator_axis[2][1] * t331;
-    let t646 = mul_sub(parameters.actuator_axis[2][2], t328, t645);
-    let t647 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
-    let t648 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
-    let t649 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
-    let t650 = mul_add(t442, t647, t426) - mul_add(t440, t648, t441 * t649);
-    let t651 = neg_mul_add(t644, t646, t650);
-    let t652 = neg_mul_add(parameters.actuator_axis[2][0], t554, t651);
-    let t653 = parameters.actuator_axis[2][2] * t325;
-    let t654 = mul_sub(parameters.actuator_axis[2][0], t331, t653);
-    let t655 = mul_sub(t443, t648, t445 * t649);
-    let t656 = neg_mul_add(t644, t654, t655 + neg_mul_add(t446, t647, t428));
-    let t657 = neg_mul_add(parameters.actuator_axis[2][1], t554, t656);
-    let t658 = parameters.actuator_axis[2][0] * t328;
-    let t659 = mul_sub(parameters.actuator_axis[2][1], t325, t658);
-    let t660 = mul_sub(t447, t648, t448 * t649);
-    let t661 = neg_mul_add(t644, t659, neg_mul_add(t449, t647, t430) - t660);
-    let t662 = neg_mul_add(parameters.actuator_axis[2][2], t554, t661);
-    let t663 = mul_add(t659, t659, mul_add(t646, t646, t654 * t654));
-    let t664 = parameters.actuator_axis[2][1] * t657;
-    let t665 = mul_add(parameters.actuator_axis[2][0], t652, t664);
-    let t666 = mul_add(parameters.actuator_axis[2][2], t662, t665);
-    let t667 = mul_add(parameters.mover_offset[2], t663, t666);
-    let t668 = parameters.platform_point[2][1] * t492;
-    let t669 = mul_add(parameters.platform_point[2][2], t494, t458);
-    let t670 = mul_add(parameters.platform_point[2][0], t490, t668) + t669;
-    let t671 = parameters.platform_point[2][1] * t475;
-    let t672 = mul_add(parameters.platform_point[2][2], t479, t454);
-    let t673 = mul_add(parameters.platform_point[2][0], t471, t671) + t672;
-    let t674 = parameters.platform_point[2][1] * t485;
-    let t675 = mul_add(parameters.platform_point[2][2], t488, t456);
-    let t676 = mul_add(parameters.platform_point[2][0], t482, t674) + t675;
-    let t677 = parameters.actuator_axis[2][1] * t676;
-    let t678 = mul_add(parameters.actuator_axis[2][0], t673, t677);
-    let t679 = t210 * mul_add(parameters.actuator_axis[2][2], t670, t678);
-    let t680 = mul_add(parameters.mover_mass[2], t667, mul_sub(t207, t666, t679));
-    // leg 3: remaining leg inertia less weight at the platform joint
-    let t681 = t210 * t652;
-    let t682 = t210 * t657;
-    let t683 = t210 * t662;
-    // leg 4: leg inertia less weight along the actuator
-    let t684 = c(2.0) * t404;
-    let t685 = parameters.actuator_axis[3][1] * t331;
-    let t686 = mul_sub(parameters.actuator_axis[3][2], t328, t685);
-    let t687 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
-    let t688 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
-    let t689 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
-    let t690 = mul_add(t442, t687, t426) - mul_add(t440, t688, t441 * t689);
-    let t691 = neg_mul_add(t684, t686, t690);
-    let t692 = neg_mul_add(parameters.actuator_axis[3][0], t557, t691);
-    let t693 = parameters.actuator_axis[3][2] * t325;
-    let t694 = mul_sub(parameters.actuator_axis[3][0], t331, t693);
-    let t695 = mul_sub(t443, t688, t445 * t689);
-    let t696 = neg_mul_add(t684, t694, t695 + neg_mul_add(t446, t687, t428));
-    let t697 = neg_mul_add(parameters.actuator_axis[3][1], t557, t696);
-    let t698 = parameters.actuator_axis[3][0] * t328;
-    let t699 = mul_sub(parameters.actuator_axis[3][1], t325, t698);
-    let t700 = mul_sub(t447, t688, t448 * t689);
-    let t701 = neg_mul_add(t684, t699, neg_mul_add(t449, t687, t430) - t700);
-    let t702 = neg_mul_add(parameters.actuator_axis[3][2], t557, t701);
-    let t703 = mul_add(t699, t699, mul_add(t686, t686, t694 * t694));
-    let t704 = parameters.actuator_axis[3][1] * t697;
-    let t705 = mul_add(parameters.actuator_axis[3][0], t692, t704);
-    let t706 = mul_add(parameters.actuator_axis[3][2], t702, t705);
-    let t707 = mul_add(parameters.mover_offset[3], t703, t706);
-    let t708 = parameters.platform_point[3][1] * t492;
-    let t709 = mul_add(parameters.platform_point[3][2], t494, t458);
-    let t710 = mul_add(parameters.platform_point[3][0], t490, t708) + t709;
-    let t711 = parameters.platform_point[3][1] * t475;
-    let t712 = mul_add(parameters.platform_point[3][2], t479, t454);
-    let t713 = mul_add(parameters.platform_point[3][0], t471, t711) + t712;
-    let t714 = parameters.platform_point[3][1] * t485;
-    let t715 = mul_add(parameters.platform_point[3][2], t488, t456);
-    let t716 = mul_add(parameters.platform_point[3][0], t482, t714) + t715;
-    let t717 = parameters.actuator_axis[3][1] * t716;
-    let t718 = mul_add(parameters.actuator_axis[3][0], t713, t717);
-    let t719 = t216 * mul_add(parameters.actuator_axis[3][2], t710, t718);
-    let t720 = mul_add(parameters.mover_mass[3], t707, mul_sub(t213, t706, t719));
-    // leg 4: remaining leg inertia less weight at the platform joint
-    let t721 = t216 * t692;
-    let t722 = t216 * t697;
-    let t723 = t216 * t702;
-    // leg 5: leg inertia less weight along the actuator
-    let t724 = c(2.0) * t412;
-    let t725 = parameters.actuator_axis[4][1] * t331;
-    let t726 = mul_sub(parameters.actuator_axis[4][2], t328, t725);
-    let t727 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
-    let t728 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
-    let t729 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
-    let t730 = mul_add(t442, t727, t426) - mul_add(t440, t728, t441 * t729);
-    let t731 = neg_mul_add(t724, t726, t730);
-    let t732 = neg_mul_add(parameters.actuator_axis[4][0], t560, t731);
-    let t733 = parameters.actuator_axis[4][2] * t325;
-    let t734 = mul_sub(parameters.actuator_axis[4][0], t331, t733);
-    let t735 = mul_sub(t443, t728, t445 * t729);
-    let t736 = neg_mul_add(t724, t734, t735 + neg_mul_add(t446, t727, t428));
-    let t737 = neg_mul_add(parameters.actuator_axis[4][1], t560, t736);
-    let t738 = parameters.actuator_axis[4][0] * t328;
-    let t739 = mul_sub(parameters.actuator_axis[4][1], t325, t738);
-    let t740 = mul_sub(t447, t728, t448 * t729);
-    let t741 = neg_mul_add(t724, t739, neg_mul_add(t449, t727, t430) - t740);
-    let t742 = neg_mul_add(parameters.actuator_axis[4][2], t560, t741);
-    let t743 = mul_add(t739, t739, mul_add(t726, t726, t734 * t734));
-    let t744 = parameters.actuator_axis[4][1] * t737;
-    let t745 = mul_add(parameters.actuator_axis[4][0], t732, t744);
-    let t746 = mul_add(parameters.actuator_axis[4][2], t742, t745);
-    let t747 = mul_add(parameters.mover_offset[4], t743, t746);
-    let t748 = parameters.platform_point[4][1] * t492;
-    let t749 = mul_add(parameters.platform_point[4][2], t494, t458);
-    let t750 = mul_add(parameters.platform_point[4][0], t490, t748) + t749;
-    let t751 = parameters.platform_point[4][1] * t475;
-    let t752 = mul_add(parameters.platform_point[4][2], t479, t454);
-    let t753 = mul_add(parameters.platform_point[4][0], t471, t751) + t752;
-    let t754 = parameters.platform_point[4][1] * t485;
-    let t755 = mul_add(parameters.platform_point[4][2], t488, t456);
-    let t756 = mul_add(parameters.platform_point[4][0], t482, t754) + t755;
-    let t757 = parameters.actuator_axis[4][1] * t756;
-    let t758 = mul_add(parameters.actuator_axis[4][0], t753, t757);
-    let t759 = t222 * mul_add(parameters.actuator_axis[4][2], t750, t758);
-    let t760 = mul_add(parameters.mover_mass[4], t747, mul_sub(t219, t746, t759));
-    // leg 5: remaining leg inertia less weight at the platform joint
-    let t761 = t222 * t732;
-    let t762 = t222 * t737;
-    let t763 = t222 * t742;
-    // leg 6: leg inertia less weight along the actuator
-    let t764 = c(2.0) * t420;
-    let t765 = parameters.actuator_axis[5][1] * t331;
-    let t766 = mul_sub(parameters.actuator_axis[5][2], t328, t765);
-    let t767 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
-    let t768 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
-    let t769 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
-    let t770 = mul_add(t442, t767, t426) - mul_add(t440, t768, t441 * t769);
-    let t771 = neg_mul_add(t764, t766, t770);
-    let t772 = neg_mul_add(parameters.actuator_axis[5][0], t563, t771);
-    let t773 = parameters.actuator_axis[5][2] * t325;
-    let t774 = mul_sub(parameters.actuator_axis[5][0], t331, t773);
-    let t775 = mul_sub(t443, t768, t445 * t769);
-    let t776 = neg_mul_add(t764, t774, t775 + neg_mul_add(t446, t767, t428));
-    let t777 = neg_mul_add(parameters.actuator_axis[5][1], t563, t776);
-    let t778 = parameters.actuator_axis[5][0] * t328;
-    let t779 = mul_sub(parameters.actuator_axis[5][1], t325, t778);
-    let t780 = mul_sub(t447, t768, t448 * t769);
-    let t781 = neg_mul_add(t764, t779, neg_mul_add(t449, t767, t430) - t780);
-    let t782 = neg_mul_add(parameters.actuator_axis[5][2], t563, t781);
-    let t783 = mul_add(t779, t779, mul_add(t766, t766, t774 * t774));
-    let t784 = parameters.actuator_axis[5][1] * t777;
-    let t785 = mul_add(parameters.actuator_axis[5][0], t772, t784);
-    let t786 = mul_add(parameters.actuator_axis[5][2], t782, t785);
-    let t787 = mul_add(parameters.mover_offset[5], t783, t786);
-    let t788 = parameters.platform_point[5][1] * t492;
-    let t789 = mul_add(parameters.platform_point[5][2], t494, t458);
-    let t790 = mul_add(parameters.platform_point[5][0], t490, t788) + t789;
-    let t791 = parameters.platform_point[5][1] * t475;
-    let t792 = mul_add(parameters.platform_point[5][2], t479, t454);
-    let t793 = mul_add(parameters.platform_point[5][0], t471, t791) + t792;
-    let t794 = parameters.platform_point[5][1] * t485;
-    let t795 = mul_add(parameters.platform_point[5][2], t488, t456);
-    let t796 = mul_add(parameters.platform_point[5][0], t482, t794) + t795;
-    let t797 = parameters.actuator_axis[5][1] * t796;
-    let t798 = mul_add(parameters.actuator_axis[5][0], t793, t797);
-    let t799 = t228 * mul_add(parameters.actuator_axis[5][2], t790, t798);
-    let t800 = mul_add(parameters.mover_mass[5], t787, mul_sub(t225, t786, t799));
-    // leg 6: remaining leg inertia less weight at the platform joint
-    let t801 = t228 * t772;
-    let t802 = t228 * t777;
-    let t803 = t228 * t782;
-    // leg 1: spring and damper force along the actuator
-    let t804 = parameters.rest_length[0] + t119;
-    let t805 = parameters.axial_damping[0] * t380;
-    let t806 = mul_add(parameters.axial_stiffness[0], t804, t805);
-    // leg 2: spring and damper force along the actuator
-    let t807 = parameters.rest_length[1] + t130;
-    let t808 = parameters.axial_damping[1] * t388;
-    let t809 = mul_add(parameters.axial_stiffness[1], t807, t808);
-    // leg 3: spring and damper force along the actuator
-    let t810 = parameters.rest_length[2] + t141;
-    let t811 = parameters.axial_damping[2] * t396;
-    let t812 = mul_add(parameters.axial_stiffness[2], t810, t811);
-    // leg 4: spring and damper force along the actuator
-    let t813 = parameters.rest_length[3] + t152;
-    let t814 = parameters.axial_damping[3] * t404;
-    let t815 = mul_add(parameters.axial_stiffness[3], t813, t814);
-    // leg 5: spring and damper force along the actuator
-    let t816 = parameters.rest_length[4] + t163;
-    let t817 = parameters.axial_damping[4] * t412;
-    let t818 = mul_add(parameters.axial_stiffness[4], t816, t817);
-    // leg 6: spring and damper force along the actuator
-    let t819 = parameters.rest_length[5] + t174;
-    let t820 = parameters.axial_damping[5] * t420;
-    let t821 = mul_add(parameters.axial_stiffness[5], t819, t820);
-    // leg 1: row of the actuator Jacobian in base coordinates
-    let t822 = mul_sub(t42, t177, t45 * t176);
-    let t823 = mul_sub(t45, t175, t39 * t177);
-    let t824 = mul_sub(t39, t176, t42 * t175);
-    // leg 2: row of the actuator Jacobian in base coordinates
-    let t825 = mul_sub(t54, t180, t57 * t179);
-    let t826 = mul_sub(t57, t178, t51 * t180);
-    let t827 = mul_sub(t51, t179, t54 * t178);
-    // leg 3: row of the actuator Jacobian in base coordinates
-    let t828 = mul_sub(t66, t183, t69 * t182);
-    let t829 = mul_sub(t69, t181, t63 * t183);
-    let t830 = mul_sub(t63, t182, t66 * t181);
-    // leg 4: row of the actuator Jacobian in base coordinates
-    let t831 = mul_sub(t78, t186, t81 * t185);
-    let t832 = mul_sub(t81, t184, t75 * t186);
-    let t833 = mul_sub(t75, t185, t78 * t184);
-    // leg 5: row of the actuator Jacobian in base coordinates
-    let t834 = mul_sub(t90, t189, t93 * t188);
-    let t835 = mul_sub(t93, t187, t87 * t189);
-    let t836 = mul_sub(t87, t188, t90 * t187);
-    // leg 6: row of the actuator Jacobian in base coordinates
-    let t837 = mul_sub(t102, t192, t105 * t191);
-    let t838 = mul_sub(t105, t190, t99 * t192);
-    let t839 = mul_sub(t99, t191, t102 * t190);
-    // leg 1: moment about the platform origin of the leg's inertia at its joint
-    let t840 = mul_sub(t42, t603, t45 * t602);
-    let t841 = mul_sub(t45, t601, t39 * t603);
-    let t842 = mul_sub(t39, t602, t42 * t601);
-    // leg 2: moment about the platform origin of the leg's inertia at its joint
-    let t843 = mul_sub(t54, t643, t57 * t642);
-    let t844 = mul_sub(t57, t641, t51 * t643);
-    let t845 = mul_sub(t51, t642, t54 * t641);
-    // leg 4: moment about the platform origin of the leg's inertia at its joint
-    let t846 = mul_sub(t78, t723, t81 * t722);
-    let t847 = mul_sub(t81, t721, t75 * t723);
-    let t848 = mul_sub(t75, t722, t78 * t721);
-    // leg 6: moment about the platform origin of the leg's inertia at its joint
-    let t849 = mul_sub(t102, t803, t105 * t802);
-    let t850 = mul_sub(t105, t801, t99 * t803);
-    let t851 = mul_sub(t99, t802, t102 * t801);
-    // inertia force less weight, without the actuators' own shares
-    let t852 = mul_add(t251, t479, mul_add(t237, t471, t244 * t475));
-    let t853 = mul_add(t251, t488, mul_add(t237, t482, t244 * t485));
-    let t854 = mul_add(t251, t494, mul_add(t237, t490, t244 * t492));
-    // first moments by platform coordinate of the payload's inertia force
-    let t855 = mul_add(t287, t479, mul_add(t265, t471, t276 * t475));
-    let t856 = mul_sub(t237, t454, t855);
-    let t857 = mul_add(t310, t479, mul_add(t276, t471, t299 * t475));
-    let t858 = mul_sub(t244, t454, t857);
-    let t859 = mul_add(t322, t479, mul_add(t287, t471, t310 * t475));
-    let t860 = mul_sub(t251, t454, t859);
-    let t861 = mul_add(t287, t488, mul_add(t265, t482, t276 * t485));
-    let t862 = mul_sub(t237, t456, t861);
-    let t863 = mul_add(t310, t488, mul_add(t276, t482, t299 * t485));
-    let t864 = mul_sub(t244, t456, t863);
-    let t865 = mul_add(t322, t488, mul_add(t287, t482, t310 * t485));
-    let t866 = mul_sub(t251, t456, t865);
-    let t867 = mul_add(t287, t494, mul_add(t265, t490, t276 * t492));
-    let t868 = mul_sub(t237, t458, t867);
-    let t869 = mul_add(t310, t494, mul_add(t276, t490, t299 * t492));
-    let t870 = mul_sub(t244, t458, t869);
-    let t871 = mul_add(t322, t494, mul_add(t287, t490, t310 * t492));
-    let t872 = mul_sub(t251, t458, t871);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t873 = neg_mul_add(t69, t682, mul_add(t66, t683, t846));
-    let t874 = neg_mul_add(t93, t762, mul_add(t90, t763, t849));
-    let t875 = t840 + t843 + t873 + t874;
-    let t876 = neg_mul_add(t63, t683, mul_add(t69, t681, t847));
-    let t877 = neg_mul_add(t87, t763, mul_add(t93, t761, t850));
-    let t878 = t841 + t844 + t876 + t877;
-    let t879 = neg_mul_add(t66, t681, mul_add(t63, t682, t848));
-    let t880 = neg_mul_add(t90, t761, mul_add(t87, t762, t851));
-    let t881 = t842 + t845 + t879 + t880;
-    // inertia less external wrench that the actuators must balance
-    let t882 = base_rotation[1][0] * external_wrench[1];
-    let t883 = mul_add(base_rotation[0][0], external_wrench[0], t882);
-    let t884 = mul_add(base_rotation[2][0], external_wrench[2], t883);
-    let t885 = neg_mul_add(t198, t572, t852 + mul_sub(t230, t454, t884));
-    let t886 = neg_mul_add(t210, t652, neg_mul_add(t204, t612, t885));
-    let t887 = neg_mul_add(t222, t732, neg_mul_add(t216, t692, t886));
-    let t888 = neg_mul_add(t228, t772, t887);
-    let t889 = base_rotation[1][1] * external_wrench[1];
-    let t890 = mul_add(base_rotation[0][1], external_wrench[0], t889);
-    let t891 = mul_add(base_rotation[2][1], external_wrench[2], t890);
-    let t892 = neg_mul_add(t198, t577, t853 + mul_sub(t230, t456, t891));
-    let t893 = neg_mul_add(t210, t657, neg_mul_add(t204, t617, t892));
-    let t894 = neg_mul_add(t222, t737, neg_mul_add(t216, t697, t893));
-    let t895 = neg_mul_add(t228, t777, t894);
-    let t896 = base_rotation[1][2] * external_wrench[1];
-    let t897 = mul_add(base_rotation[0][2], external_wrench[0], t896);
-    let t898 = mul_add(base_rotation[2][2], external_wrench[2], t897);
-    let t899 = neg_mul_add(t198, t582, t854 + mul_sub(t230, t458, t898));
-    let t900 = neg_mul_add(t210, t662, neg_mul_add(t204, t622, t899));
-    let t901 = neg_mul_add(t222, t742, neg_mul_add(t216, t702, t900));
-    let t902 = neg_mul_add(t228, t782, t901);
-    let t903 = neg_mul_add(parameters.payload_com[0], t898, t868);
-    let t904 = neg_mul_add(parameters.payload_com[0], t891, t862);
-    let t905 = neg_mul_add(parameters.payload_com[1], t898, t870);
-    let t906 = neg_mul_add(parameters.payload_com[1], t891, t864);
-    let t907 = mul_sub(t15, t905, t24 * t906);
-    let t908 = neg_mul_add(parameters.payload_com[2], t891, t866);
-    let t909 = neg_mul_add(parameters.payload_com[2], t898, t872);
-    let t910 = base_rotation[1][0] * external_wrench[4];
-    let t911 = mul_add(base_rotation[0][0], external_wrench[3], t910);
-    let t912 = mul_add(base_rotation[2][0], external_wrench[5], t911);
-    let t913 = neg_mul_add(t27, t908, mul_sub(t18, t909, t912));
-    let t914 = mul_sub(t12, t903, t21 * t904) + t907 + t913 - t875;
-    let t915 = neg_mul_add(parameters.payload_com[0], t884, t856);
-    let t916 = neg_mul_add(parameters.payload_com[1], t884, t858);
-    let t917 = mul_sub(t24, t916, t6 * t905);
-    let t918 = neg_mul_add(parameters.payload_com[2], t884, t860);
-    let t919 = base_rotation[1][1] * external_wrench[4];
-    let t920 = mul_add(base_rotation[0][1], external_wrench[3], t919);
-    let t921 = mul_add(base_rotation[2][1], external_wrench[5], t920);
-    let t922 = neg_mul_add(t9, t909, mul_sub(t27, t918, t921));
-    let t923 = mul_sub(t21, t915, t3 * t903) + t917 + t922 - t878;
-    let t924 = mul_sub(t6, t906, t15 * t916);
-    let t925 = base_rotation[1][2] * external_wrench[4];
-    let t926 = mul_add(base_rotation[0][2], external_wrench[3], t925);
-    let t927 = mul_add(base_rotation[2][2], external_wrench[5], t926);
-    let t928 = neg_mul_add(t18, t918, mul_sub(t9, t908, t927));
-    let t929 = mul_sub(t3, t904, t12 * t915) + t924 + t928 - t881;
-    // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
-        &[
-            [t175, t178, t181, t184, t187, t190],
-            [t176, t179, t182, t185, t188, t191],
-            [t177, t180, t183, t186, t189, t192],
-            [t822, t825, t828, t831, t834, t837],
-            [t823, t826, t829, t832, t835, t838],
-            [t824, t827, t830, t833, t836, t839],
-        ],
-        &[t888, t895, t902, t914, t923, t929],
-    );
-    // leg 1: actuator forces F
-    inverse_dynamics[0] = axial_reaction[0] + (t600 - t806);
-    // leg 2: actuator forces F
-    inverse_dynamics[1] = axial_reaction[1] + (t640 - t809);
-    // leg 3: actuator forces F
-    inverse_dynamics[2] = axial_reaction[2] + (t680 - t812);
-    // leg 4: actuator forces F
-    inverse_dynamics[3] = axial_reaction[3] + (t720 - t815);
-    // leg 5: actuator forces F
-    inverse_dynamics[4] = axial_reaction[4] + (t760 - t818);
-    // leg 6: actuator forces F
-    inverse_dynamics[5] = axial_reaction[5] + (t800 - t821);
+    let (
+        t175, t176, t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t187, t188, t189,
+        t190, t191, t192, t600, t640, t680, t720, t760, t800, t806, t809, t812, t815, t818, t821,
+        t822, t823, t824, t825, t826, t827, t828, t829, t830, t831, t832, t833, t834, t835, t836,
+        t837, t838, t839, t888, t889, t896, t897, t904, t905, t917, t918, t927, t928, t934, t935,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
+        let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
+        let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = mul_add(base_rotation[0][0], platform_rotation[0][2], t7);
+        let t9 = mul_add(base_rotation[2][0], platform_rotation[2][2], t8);
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = mul_add(base_rotation[0][1], platform_rotation[0][0], t10);
+        let t12 = mul_add(base_rotation[2][1], platform_rotation[2][0], t11);
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = mul_add(base_rotation[0][1], platform_rotation[0][1], t13);
+        let t15 = mul_add(base_rotation[2][1], platform_rotation[2][1], t14);
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = mul_add(base_rotation[0][1], platform_rotation[0][2], t16);
+        let t18 = mul_add(base_rotation[2][1], platform_rotation[2][2], t17);
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = mul_add(base_rotation[0][2], platform_rotation[0][0], t19);
+        let t21 = mul_add(base_rotation[2][2], platform_rotation[2][0], t20);
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = mul_add(base_rotation[0][2], platform_rotation[0][1], t22);
+        let t24 = mul_add(base_rotation[2][2], platform_rotation[2][1], t23);
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = mul_add(base_rotation[0][2], platform_rotation[0][2], t25);
+        let t27 = mul_add(base_rotation[2][2], platform_rotation[2][2], t26);
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = mul_add(base_rotation[0][0], t29, base_rotation[1][0] * t30);
+        let t32 = mul_add(base_rotation[2][0], t28, t31);
+        let t33 = mul_add(base_rotation[0][1], t29, base_rotation[1][1] * t30);
+        let t34 = mul_add(base_rotation[2][1], t28, t33);
+        let t35 = mul_add(base_rotation[0][2], t29, base_rotation[1][2] * t30);
+        let t36 = mul_add(base_rotation[2][2], t28, t35);
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = mul_add(parameters.platform_point[0][0], t3, t37);
+        let t39 = mul_add(parameters.platform_point[0][2], t9, t38);
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = mul_add(parameters.platform_point[0][0], t12, t40);
+        let t42 = mul_add(parameters.platform_point[0][2], t18, t41);
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = mul_add(parameters.platform_point[0][0], t21, t43);
+        let t45 = mul_add(parameters.platform_point[0][2], t27, t44);
+        // leg 1: platform joint from the base point
+        let t46 = parameters.base_point[0][0] + (t32 - t39);
+        let t47 = parameters.base_point[0][1] + (t34 - t42);
+        let t48 = parameters.base_point[0][2] + (t36 - t45);
+        // leg 2: platform joint from the platform origin
+        let t49 = parameters.platform_point[1][1] * t6;
+        let t50 = mul_add(parameters.platform_point[1][0], t3, t49);
+        let t51 = mul_add(parameters.platform_point[1][2], t9, t50);
+        let t52 = parameters.platform_point[1][1] * t15;
+        let t53 = mul_add(parameters.platform_point[1][0], t12, t52);
+        let t54 = mul_add(parameters.platform_point[1][2], t18, t53);
+        let t55 = parameters.platform_point[1][1] * t24;
+        let t56 = mul_add(parameters.platform_point[1][0], t21, t55);
+        let t57 = mul_add(parameters.platform_point[1][2], t27, t56);
+        // leg 2: platform joint from the base point
+        let t58 = parameters.base_point[1][0] + (t32 - t51);
+        let t59 = parameters.base_point[1][1] + (t34 - t54);
+        let t60 = parameters.base_point[1][2] + (t36 - t57);
+        // leg 3: platform joint from the platform origin
+        let t61 = parameters.platform_point[2][1] * t6;
+        let t62 = mul_add(parameters.platform_point[2][0], t3, t61);
+        let t63 = mul_add(parameters.platform_point[2][2], t9, t62);
+        let t64 = parameters.platform_point[2][1] * t15;
+        let t65 = mul_add(parameters.platform_point[2][0], t12, t64);
+        let t66 = mul_add(parameters.platform_point[2][2], t18, t65);
+        let t67 = parameters.platform_point[2][1] * t24;
+        let t68 = mul_add(parameters.platform_point[2][0], t21, t67);
+        let t69 = mul_add(parameters.platform_point[2][2], t27, t68);
+        // leg 3: platform joint from the base point
+        let t70 = parameters.base_point[2][0] + (t32 - t63);
+        let t71 = parameters.base_point[2][1] + (t34 - t66);
+        let t72 = parameters.base_point[2][2] + (t36 - t69);
+        // leg 4: platform joint from the platform origin
+        let t73 = parameters.platform_point[3][1] * t6;
+        let t74 = mul_add(parameters.platform_point[3][0], t3, t73);
+        let t75 = mul_add(parameters.platform_point[3][2], t9, t74);
+        let t76 = parameters.platform_point[3][1] * t15;
+        let t77 = mul_add(parameters.platform_point[3][0], t12, t76);
+        let t78 = mul_add(parameters.platform_point[3][2], t18, t77);
+        let t79 = parameters.platform_point[3][1] * t24;
+        let t80 = mul_add(parameters.platform_point[3][0], t21, t79);
+        let t81 = mul_add(parameters.platform_point[3][2], t27, t80);
+        // leg 4: platform joint from the base point
+        let t82 = parameters.base_point[3][0] + (t32 - t75);
+        let t83 = parameters.base_point[3][1] + (t34 - t78);
+        let t84 = parameters.base_point[3][2] + (t36 - t81);
+        // leg 5: platform joint from the platform origin
+        let t85 = parameters.platform_point[4][1] * t6;
+        let t86 = mul_add(parameters.platform_point[4][0], t3, t85);
+        let t87 = mul_add(parameters.platform_point[4][2], t9, t86);
+        let t88 = parameters.platform_point[4][1] * t15;
+        let t89 = mul_add(parameters.platform_point[4][0], t12, t88);
+        let t90 = mul_add(parameters.platform_point[4][2], t18, t89);
+        let t91 = parameters.platform_point[4][1] * t24;
+        let t92 = mul_add(parameters.platform_point[4][0], t21, t91);
+        let t93 = mul_add(parameters.platform_point[4][2], t27, t92);
+        // leg 5: platform joint from the base point
+        let t94 = parameters.base_point[4][0] + (t32 - t87);
+        let t95 = parameters.base_point[4][1] + (t34 - t90);
+        let t96 = parameters.base_point[4][2] + (t36 - t93);
+        // leg 6: platform joint from the platform origin
+        let t97 = parameters.platform_point[5][1] * t6;
+        let t98 = mul_add(parameters.platform_point[5][0], t3, t97);
+        let t99 = mul_add(parameters.platform_point[5][2], t9, t98);
+        let t100 = parameters.platform_point[5][1] * t15;
+        let t101 = mul_add(parameters.platform_point[5][0], t12, t100);
+        let t102 = mul_add(parameters.platform_point[5][2], t18, t101);
+        let t103 = parameters.platform_point[5][1] * t24;
+        let t104 = mul_add(parameters.platform_point[5][0], t21, t103);
+        let t105 = mul_add(parameters.platform_point[5][2], t27, t104);
+        // leg 6: platform joint from the base point
+        let t106 = parameters.base_point[5][0] + (t32 - t99);
+        let t107 = parameters.base_point[5][1] + (t34 - t102);
+        let t108 = parameters.base_point[5][2] + (t36 - t105);
+        // leg 1: offset of the platform joint from the actuator axis
+        let t109 = parameters.actuator_axis[0][1] * t47;
+        let t110 = mul_add(parameters.actuator_axis[0][0], t46, t109);
+        let t111 = mul_add(parameters.actuator_axis[0][2], t48, t110);
+        let t112 = neg_mul_add(parameters.actuator_axis[0][0], t111, t46);
+        let t113 = neg_mul_add(parameters.actuator_axis[0][1], t111, t47);
+        let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
+        // leg 1: extent of the rod along the actuator axis
+        let t115 = parameters.rod_length[0] * parameters.rod_length[0];
+        let t116 = mul_add(t112, t112, t113 * t113);
+        let t117 = sqrt(neg_mul_add(t114, t114, t115) - t116);
+        // leg 1: reciprocal of that extent
+        let t118 = c(1.0) / t117;
+        // leg 1: actuator length d
+        let t119 = t111 + t117;
+        // leg 2: offset of the platform joint from the actuator axis
+        let t120 = parameters.actuator_axis[1][1] * t59;
+        let t121 = mul_add(parameters.actuator_axis[1][0], t58, t120);
+        let t122 = mul_add(parameters.actuator_axis[1][2], t60, t121);
+        let t123 = neg_mul_add(parameters.actuator_axis[1][0], t122, t58);
+        let t124 = neg_mul_add(parameters.actuator_axis[1][1], t122, t59);
+        let t125 = neg_mul_add(parameters.actuator_axis[1][2], t122, t60);
+        // leg 2: extent of the rod along the actuator axis
+        let t126 = parameters.rod_length[1] * parameters.rod_length[1];
+        let t127 = mul_add(t123, t123, t124 * t124);
+        let t128 = sqrt(neg_mul_add(t125, t125, t126) - t127);
+        // leg 2: reciprocal of that extent
+        let t129 = c(1.0) / t128;
+        // leg 2: actuator length d
+        let t130 = t122 + t128;
+        // leg 3: offset of the platform joint from the actuator axis
+        let t131 = parameters.actuator_axis[2][1] * t71;
+        let t132 = mul_add(parameters.actuator_axis[2][0], t70, t131);
+        let t133 = mul_add(parameters.actuator_axis[2][2], t72, t132);
+        let t134 = neg_mul_add(parameters.actuator_axis[2][0], t133, t70);
+        let t135 = neg_mul_add(parameters.actuator_axis[2][1], t133, t71);
+        let t136 = neg_mul_add(parameters.actuator_axis[2][2], t133, t72);
+        // leg 3: extent of the rod along the actuator axis
+        let t137 = parameters.rod_length[2] * parameters.rod_length[2];
+        let t138 = mul_add(t134, t134, t135 * t135);
+        let t139 = sqrt(neg_mul_add(t136, t136, t137) - t138);
+        // leg 3: reciprocal of that extent
+        let t140 = c(1.0) / t139;
+        // leg 3: actuator length d
+        let t141 = t133 + t139;
+        // leg 4: offset of the platform joint from the actuator axis
+        let t142 = parameters.actuator_axis[3][1] * t83;
+        let t143 = mul_add(parameters.actuator_axis[3][0], t82, t142);
+        let t144 = mul_add(parameters.actuator_axis[3][2], t84, t143);
+        let t145 = neg_mul_add(parameters.actuator_axis[3][0], t144, t82);
+        let t146 = neg_mul_add(parameters.actuator_axis[3][1], t144, t83);
+        let t147 = neg_mul_add(parameters.actuator_axis[3][2], t144, t84);
+        // leg 4: extent of the rod along the actuator axis
+        let t148 = parameters.rod_length[3] * parameters.rod_length[3];
+        let t149 = mul_add(t145, t145, t146 * t146);
+        let t150 = sqrt(neg_mul_add(t147, t147, t148) - t149);
+        // leg 4: reciprocal of that extent
+        let t151 = c(1.0) / t150;
+        // leg 4: actuator length d
+        let t152 = t144 + t150;
+        // leg 5: offset of the platform joint from the actuator axis
+        let t153 = parameters.actuator_axis[4][1] * t95;
+        let t154 = mul_add(parameters.actuator_axis[4][0], t94, t153);
+        let t155 = mul_add(parameters.actuator_axis[4][2], t96, t154);
+        let t156 = neg_mul_add(parameters.actuator_axis[4][0], t155, t94);
+        let t157 = neg_mul_add(parameters.actuator_axis[4][1], t155, t95);
+        let t158 = neg_mul_add(parameters.actuator_axis[4][2], t155, t96);
+        // leg 5: extent of the rod along the actuator axis
+        let t159 = parameters.rod_length[4] * parameters.rod_length[4];
+        let t160 = mul_add(t156, t156, t157 * t157);
+        let t161 = sqrt(neg_mul_add(t158, t158, t159) - t160);
+        // leg 5: reciprocal of that extent
+        let t162 = c(1.0) / t161;
+        // leg 5: actuator length d
+        let t163 = t155 + t161;
+        // leg 6: offset of the platform joint from the actuator axis
+        let t164 = parameters.actuator_axis[5][1] * t107;
+        let t165 = mul_add(parameters.actuator_axis[5][0], t106, t164);
+        let t166 = mul_add(parameters.actuator_axis[5][2], t108, t165);
+        let t167 = neg_mul_add(parameters.actuator_axis[5][0], t166, t106);
+        let t168 = neg_mul_add(parameters.actuator_axis[5][1], t166, t107);
+        let t169 = neg_mul_add(parameters.actuator_axis[5][2], t166, t108);
+        // leg 6: extent of the rod along the actuator axis
+        let t170 = parameters.rod_length[5] * parameters.rod_length[5];
+        let t171 = mul_add(t167, t167, t168 * t168);
+        let t172 = sqrt(neg_mul_add(t169, t169, t170) - t171);
+        // leg 6: reciprocal of that extent
+        let t173 = c(1.0) / t172;
+        // leg 6: actuator length d
+        let t174 = t166 + t172;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t175 = neg_mul_add(t112, t118, parameters.actuator_axis[0][0]);
+        let t176 = neg_mul_add(t113, t118, parameters.actuator_axis[0][1]);
+        let t177 = neg_mul_add(t114, t118, parameters.actuator_axis[0][2]);
+        // leg 2: gradient of the actuator length by the platform joint
+        let t178 = neg_mul_add(t123, t129, parameters.actuator_axis[1][0]);
+        let t179 = neg_mul_add(t124, t129, parameters.actuator_axis[1][1]);
+        let t180 = neg_mul_add(t125, t129, parameters.actuator_axis[1][2]);
+        // leg 3: gradient of the actuator length by the platform joint
+        let t181 = neg_mul_add(t134, t140, parameters.actuator_axis[2][0]);
+        let t182 = neg_mul_add(t135, t140, parameters.actuator_axis[2][1]);
+        let t183 = neg_mul_add(t136, t140, parameters.actuator_axis[2][2]);
+        // leg 4: gradient of the actuator length by the platform joint
+        let t184 = neg_mul_add(t145, t151, parameters.actuator_axis[3][0]);
+        let t185 = neg_mul_add(t146, t151, parameters.actuator_axis[3][1]);
+        let t186 = neg_mul_add(t147, t151, parameters.actuator_axis[3][2]);
+        // leg 5: gradient of the actuator length by the platform joint
+        let t187 = neg_mul_add(t156, t162, parameters.actuator_axis[4][0]);
+        let t188 = neg_mul_add(t157, t162, parameters.actuator_axis[4][1]);
+        let t189 = neg_mul_add(t158, t162, parameters.actuator_axis[4][2]);
+        // leg 6: gradient of the actuator length by the platform joint
+        let t190 = neg_mul_add(t167, t173, parameters.actuator_axis[5][0]);
+        let t191 = neg_mul_add(t168, t173, parameters.actuator_axis[5][1]);
+        let t192 = neg_mul_add(t169, t173, parameters.actuator_axis[5][2]);
+        // leg 1: rod's end mass at the Hooke joint
+        let t193 = parameters.rod_com_fraction[0] - c(1.0);
+        let t194 = parameters.rod_inertia[0] / t115;
+        let t195 = mul_add(t193, parameters.rod_mass[0] * t193, t194);
+        // leg 1: leg mass that moves with the platform joint
+        let t196 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
+        let t197 = mul_add(parameters.rod_com_fraction[0], t196, t194);
+        // leg 1: rod's inertial coupling between its ends
+        let t198 = mul_add(t193, t196, t194);
+        // leg 2: rod's end mass at the Hooke joint
+        let t199 = parameters.rod_com_fraction[1] - c(1.0);
+        let t200 = parameters.rod_inertia[1] / t126;
+        let t201 = mul_add(t199, parameters.rod_mass[1] * t199, t200);
+        // leg 2: leg mass that moves with the platform joint
+        let t202 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
+        let t203 = mul_add(parameters.rod_com_fraction[1], t202, t200);
+        // leg 2: rod's inertial coupling between its ends
+        let t204 = mul_add(t199, t202, t200);
+        // leg 3: rod's end mass at the Hooke joint
+        let t205 = parameters.rod_com_fraction[2] - c(1.0);
+        let t206 = parameters.rod_inertia[2] / t137;
+        let t207 = mul_add(t205, parameters.rod_mass[2] * t205, t206);
+        // leg 3: leg mass that moves with the platform joint
+        let t208 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
+        let t209 = mul_add(parameters.rod_com_fraction[2], t208, t206);
+        // leg 3: rod's inertial coupling between its ends
+        let t210 = mul_add(t205, t208, t206);
+        // leg 4: rod's end mass at the Hooke joint
+        let t211 = parameters.rod_com_fraction[3] - c(1.0);
+        let t212 = parameters.rod_inertia[3] / t148;
+        let t213 = mul_add(t211, parameters.rod_mass[3] * t211, t212);
+        // leg 4: leg mass that moves with the platform joint
+        let t214 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
+        let t215 = mul_add(parameters.rod_com_fraction[3], t214, t212);
+        // leg 4: rod's inertial coupling between its ends
+        let t216 = mul_add(t211, t214, t212);
+        // leg 5: rod's end mass at the Hooke joint
+        let t217 = parameters.rod_com_fraction[4] - c(1.0);
+        let t218 = parameters.rod_inertia[4] / t159;
+        let t219 = mul_add(t217, parameters.rod_mass[4] * t217, t218);
+        // leg 5: leg mass that moves with the platform joint
+        let t220 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
+        let t221 = mul_add(parameters.rod_com_fraction[4], t220, t218);
+        // leg 5: rod's inertial coupling between its ends
+        let t222 = mul_add(t217, t220, t218);
+        // leg 6: rod's end mass at the Hooke joint
+        let t223 = parameters.rod_com_fraction[5] - c(1.0);
+        let t224 = parameters.rod_inertia[5] / t170;
+        let t225 = mul_add(t223, parameters.rod_mass[5] * t223, t224);
+        // leg 6: leg mass that moves with the platform joint
+        let t226 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
+        let t227 = mul_add(parameters.rod_com_fraction[5], t226, t224);
+        // leg 6: rod's inertial coupling between its ends
+        let t228 = mul_add(t223, t226, t224);
+        // mass of payload and platform-side leg ends
+        let t229 = t221 + (t215 + (t209 + (t203 + (parameters.payload_mass + t197))));
+        let t230 = t227 + t229;
+        // first moment of payload and platform-side leg ends
+        let t231 = parameters.platform_point[0][0] * t197;
+        let t232 = mul_add(parameters.payload_mass, parameters.payload_com[0], t231);
+        let t233 = mul_add(parameters.platform_point[1][0], t203, t232);
+        let t234 = mul_add(parameters.platform_point[2][0], t209, t233);
+        let t235 = mul_add(parameters.platform_point[3][0], t215, t234);
+        let t236 = mul_add(parameters.platform_point[4][0], t221, t235);
+        let t237 = mul_add(parameters.platform_point[5][0], t227, t236);
+        let t238 = parameters.platform_point[0][1] * t197;
+        let t239 = mul_add(parameters.payload_mass, parameters.payload_com[1], t238);
+        let t240 = mul_add(parameters.platform_point[1][1], t203, t239);
+        let t241 = mul_add(parameters.platform_point[2][1], t209, t240);
+        let t242 = mul_add(parameters.platform_point[3][1], t215, t241);
+        let t243 = mul_add(parameters.platform_point[4][1], t221, t242);
+        let t244 = mul_add(parameters.platform_point[5][1], t227, t243);
+        let t245 = parameters.platform_point[0][2] * t197;
+        let t246 = mul_add(parameters.payload_mass, parameters.payload_com[2], t245);
+        let t247 = mul_add(parameters.platform_point[1][2], t203, t246);
+        let t248 = mul_add(parameters.platform_point[2][2], t209, t247);
+        let t249 = mul_add(parameters.platform_point[3][2], t215, t248);
+        let t250 = mul_add(parameters.platform_point[4][2], t221, t249);
+        let t251 = mul_add(parameters.platform_point[5][2], t227, t250);
+        // second moment of payload and platform-side leg ends
+        let t252 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+        let t253 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+        let t254 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+        let t255 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+        let t256 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+        let t257 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+        let t258 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t259 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t260 = parameters.payload_inertia[2][2] + t259;
+        let t261 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[0][0]);
+        let t262 = neg_mul_add(parameters.payload_mass, t258, t261);
+        let t263 = neg_mul_add(t203, t256, neg_mul_add(t197, t257, t262));
+        let t264 = neg_mul_add(t215, t254, neg_mul_add(t209, t255, t263));
+        let t265 = neg_mul_add(t227, t252, neg_mul_add(t221, t253, t264));
+        let t266 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
+        let t267 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
+        let t268 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
+        let t269 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
+        let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
+        let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
+        let t272 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
+        let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
+        let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
+        let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
+        let t277 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+        let t278 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+        let t279 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+        let t280 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+        let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+        let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+        let t283 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
+        let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
+        let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
+        let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
+        let t288 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+        let t289 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+        let t290 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+        let t291 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+        let t292 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+        let t293 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+        let t294 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t295 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[1][1]);
+        let t296 = neg_mul_add(parameters.payload_mass, t294, t295);
+        let t297 = neg_mul_add(t203, t292, neg_mul_add(t197, t293, t296));
+        let t298 = neg_mul_add(t215, t290, neg_mul_add(t209, t291, t297));
+        let t299 = neg_mul_add(t227, t288, neg_mul_add(t221, t289, t298));
+        let t300 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+        let t301 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+        let t302 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+        let t303 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+        let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+        let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+        let t306 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
+        let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
+        let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
+        let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
+        let t311 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+        let t312 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+        let t313 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+        let t314 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+        let t315 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+        let t316 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+        let t317 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t318 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[2][2]);
+        let t319 = neg_mul_add(parameters.payload_mass, t317, t318);
+        let t320 = neg_mul_add(t203, t315, neg_mul_add(t197, t316, t319));
+        let t321 = neg_mul_add(t215, t313, neg_mul_add(t209, t314, t320));
+        let t322 = neg_mul_add(t227, t311, neg_mul_add(t221, t312, t321));
+        // angular velocity of the base
+        let t323 = base_rotation[1][0] * base_velocity[4];
+        let t324 = mul_add(base_rotation[0][0], base_velocity[3], t323);
+        let t325 = mul_add(base_rotation[2][0], base_velocity[5], t324);
+        let t326 = base_rotation[1][1] * base_velocity[4];
+        let t327 = mul_add(base_rotation[0][1], base_velocity[3], t326);
+        let t328 = mul_add(base_rotation[2][1], base_velocity[5], t327);
+        let t329 = base_rotation[1][2] * base_velocity[4];
+        let t330 = mul_add(base_rotation[0][2], base_velocity[3], t329);
+        let t331 = mul_add(base_rotation[2][2], base_velocity[5], t330);
+        // angular velocity of the platform
+        let t332 = base_rotation[1][0] * platform_velocity[4];
+        let t333 = mul_add(base_rotation[0][0], platform_velocity[3], t332);
+        let t334 = mul_add(base_rotation[2][0], platform_velocity[5], t333);
+        let t335 = base_rotation[1][1] * platform_velocity[4];
+        let t336 = mul_add(base_rotation[0][1], platform_velocity[3], t335);
+        let t337 = mul_add(base_rotation[2][1], platform_velocity[5], t336);
+        let t338 = base_rotation[1][2] * platform_velocity[4];
+        let t339 = mul_add(base_rotation[0][2], platform_velocity[3], t338);
+        let t340 = mul_add(base_rotation[2][2], platform_velocity[5], t339);
+        // angular velocity of the platform relative to the base
+        let t341 = t325 - t334;
+        let t342 = t328 - t337;
+        let t343 = t331 - t340;
+        // velocity of the platform origin relative to the base
+        let t344 = base_velocity[2] - platform_velocity[2];
+        let t345 = base_velocity[0] - platform_velocity[0];
+        let t346 = base_velocity[1] - platform_velocity[1];
+        let t347 = mul_add(base_rotation[0][0], t345, base_rotation[1][0] * t346);
+        let t348 = neg_mul_add(t36, t328, mul_add(base_rotation[2][0], t344, t347));
+        let t349 = mul_add(t34, t331, t348);
+        let t350 = mul_add(base_rotation[0][1], t345, base_rotation[1][1] * t346);
+        let t351 = neg_mul_add(t32, t331, mul_add(base_rotation[2][1], t344, t350));
+        let t352 = mul_add(t36, t325, t351);
+        let t353 = mul_add(base_rotation[0][2], t345, base_rotation[1][2] * t346);
+        let t354 = neg_mul_add(t34, t325, mul_add(base_rotation[2][2], t344, t353));
+        let t355 = mul_add(t32, t328, t354);
+        // leg 1: velocity of the platform joint relative to the base
+        let t356 = neg_mul_add(t42, t343, mul_add(t45, t342, t349));
+        let t357 = neg_mul_add(t45, t341, mul_add(t39, t343, t352));
+        let t358 = neg_mul_add(t39, t342, mul_add(t42, t341, t355));
+        // leg 2: velocity of the platform joint relative to the base
+        let t359 = neg_mul_add(t54, t343, mul_add(t57, t342, t349));
+        let t360 = neg_mul_add(t57, t341, mul_add(t51, t343, t352));
+        let t361 = neg_mul_add(t51, t342, mul_add(t54, t341, t355));
+        // leg 3: velocity of the platform joint relative to the base
+        let t362 = neg_mul_add(t66, t343, mul_add(t69, t342, t349));
+        let t363 = neg_mul_add(t69, t341, mul_add(t63, t343, t352));
+        let t364 = neg_mul_add(t63, t342, mul_add(t66, t341, t355));
+        // leg 4: velocity of the platform joint relative to the base
+        let t365 = neg_mul_add(t78, t343, mul_add(t81, t342, t349));
+        let t366 = neg_mul_add(t81, t341, mul_add(t75, t343, t352));
+        let t367 = neg_mul_add(t75, t342, mul_add(t78, t341, t355));
+        // leg 5: velocity of the platform joint relative to the base
+        let t368 = neg_mul_add(t90, t343, mul_add(t93, t342, t349));
+        let t369 = neg_mul_add(t93, t341, mul_add(t87, t343, t352));
+        let t370 = neg_mul_add(t87, t342, mul_add(t90, t341, t355));
+        // leg 6: velocity of the platform joint relative to the base
+        let t371 = neg_mul_add(t102, t343, mul_add(t105, t342, t349));
+        let t372 = neg_mul_add(t105, t341, mul_add(t99, t343, t352));
+        let t373 = neg_mul_add(t99, t342, mul_add(t102, t341, t355));
+        // leg 1: rate of the offset from the actuator axis
+        let t374 = parameters.actuator_axis[0][1] * t357;
+        let t375 = mul_add(parameters.actuator_axis[0][0], t356, t374);
+        let t376 = mul_add(parameters.actuator_axis[0][2], t358, t375);
+        let t377 = neg_mul_add(parameters.actuator_axis[0][0], t376, t356);
+        let t378 = neg_mul_add(parameters.actuator_axis[0][1], t376, t357);
+        let t379 = neg_mul_add(parameters.actuator_axis[0][2], t376, t358);
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t380 = mul_add(t177, t358, mul_add(t175, t356, t176 * t357));
+        let t381 = t376 - t380;
+        // leg 2: rate of the offset from the actuator axis
+        let t382 = parameters.actuator_axis[1][1] * t360;
+        let t383 = mul_add(parameters.actuator_axis[1][0], t359, t382);
+        let t384 = mul_add(parameters.actuator_axis[1][2], t361, t383);
+        let t385 = neg_mul_add(parameters.actuator_axis[1][0], t384, t359);
+        let t386 = neg_mul_add(parameters.actuator_axis[1][1], t384, t360);
+        let t387 = neg_mul_add(parameters.actuator_axis[1][2], t384, t361);
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t388 = mul_add(t180, t361, mul_add(t178, t359, t179 * t360));
+        let t389 = t384 - t388;
+        // leg 3: rate of the offset from the actuator axis
+        let t390 = parameters.actuator_axis[2][1] * t363;
+        let t391 = mul_add(parameters.actuator_axis[2][0], t362, t390);
+        let t392 = mul_add(parameters.actuator_axis[2][2], t364, t391);
+        let t393 = neg_mul_add(parameters.actuator_axis[2][0], t392, t362);
+        let t394 = neg_mul_add(parameters.actuator_axis[2][1], t392, t363);
+        let t395 = neg_mul_add(parameters.actuator_axis[2][2], t392, t364);
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t396 = mul_add(t183, t364, mul_add(t181, t362, t182 * t363));
+        let t397 = t392 - t396;
+        // leg 4: rate of the offset from the actuator axis
+        let t398 = parameters.actuator_axis[3][1] * t366;
+        let t399 = mul_add(parameters.actuator_axis[3][0], t365, t398);
+        let t400 = mul_add(parameters.actuator_axis[3][2], t367, t399);
+        let t401 = neg_mul_add(parameters.actuator_axis[3][0], t400, t365);
+        let t402 = neg_mul_add(parameters.actuator_axis[3][1], t400, t366);
+        let t403 = neg_mul_add(parameters.actuator_axis[3][2], t400, t367);
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t404 = mul_add(t186, t367, mul_add(t184, t365, t185 * t366));
+        let t405 = t400 - t404;
+        // leg 5: rate of the offset from the actuator axis
+        let t406 = parameters.actuator_axis[4][1] * t369;
+        let t407 = mul_add(parameters.actuator_axis[4][0], t368, t406);
+        let t408 = mul_add(parameters.actuator_axis[4][2], t370, t407);
+        let t409 = neg_mul_add(parameters.actuator_axis[4][0], t408, t368);
+        let t410 = neg_mul_add(parameters.actuator_axis[4][1], t408, t369);
+        let t411 = neg_mul_add(parameters.actuator_axis[4][2], t408, t370);
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t412 = mul_add(t189, t370, mul_add(t187, t368, t188 * t369));
+        let t413 = t408 - t412;
+        // leg 6: rate of the offset from the actuator axis
+        let t414 = parameters.actuator_axis[5][1] * t372;
+        let t415 = mul_add(parameters.actuator_axis[5][0], t371, t414);
+        let t416 = mul_add(parameters.actuator_axis[5][2], t373, t415);
+        let t417 = neg_mul_add(parameters.actuator_axis[5][0], t416, t371);
+        let t418 = neg_mul_add(parameters.actuator_axis[5][1], t416, t372);
+        let t419 = neg_mul_add(parameters.actuator_axis[5][2], t416, t373);
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t420 = mul_add(t192, t373, mul_add(t190, t371, t191 * t372));
+        let t421 = t416 - t420;
+        // acceleration of the base origin less gravity
+        let t422 = base_acceleration[2] - parameters.gravity[2];
+        let t423 = base_acceleration[0] - parameters.gravity[0];
+        let t424 = base_acceleration[1] - parameters.gravity[1];
+        let t425 = mul_add(base_rotation[0][0], t423, base_rotation[1][0] * t424);
+        let t426 = mul_add(base_rotation[2][0], t422, t425);
+        let t427 = mul_add(base_rotation[0][1], t423, base_rotation[1][1] * t424);
+        let t428 = mul_add(base_rotation[2][1], t422, t427);
+        let t429 = mul_add(base_rotation[0][2], t423, base_rotation[1][2] * t424);
+        let t430 = mul_add(base_rotation[2][2], t422, t429);
+        // angular acceleration of the base
+        let t431 = base_rotation[1][0] * base_acceleration[4];
+        let t432 = mul_add(base_rotation[0][0], base_acceleration[3], t431);
+        let t433 = mul_add(base_rotation[2][0], base_acceleration[5], t432);
+        let t434 = base_rotation[1][1] * base_acceleration[4];
+        let t435 = mul_add(base_rotation[0][1], base_acceleration[3], t434);
+        let t436 = mul_add(base_rotation[2][1], base_acceleration[5], t435);
+        let t437 = base_rotation[1][2] * base_acceleration[4];
+        let t438 = mul_add(base_rotation[0][2], base_acceleration[3], t437);
+        let t439 = mul_add(base_rotation[2][2], base_acceleration[5], t438);
+        // acceleration per base coordinate of points that move with the base
+        let t440 = mul_add(t328, t328, t331 * t331);
+        let t441 = neg_mul_add(t325, t328, t439);
+        let t442 = mul_add(t325, t331, t436);
+        let t443 = mul_add(t325, t328, t439);
+        let t444 = t325 * t325;
+        let t445 = mul_add(t331, t331, t444);
+        let t446 = neg_mul_add(t328, t331, t433);
+        let t447 = neg_mul_add(t325, t331, t436);
+        let t448 = mul_add(t328, t331, t433);
+        let t449 = mul_add(t328, t328, t444);
+        // acceleration of the platform origin less gravity
+        let t450 = platform_acceleration[2] - parameters.gravity[2];
+        let t451 = platform_acceleration[0] - parameters.gravity[0];
+        let t452 = platform_acceleration[1] - parameters.gravity[1];
+        let t453 = mul_add(base_rotation[0][0], t451, base_rotation[1][0] * t452);
+        let t454 = mul_add(base_rotation[2][0], t450, t453);
+        let t455 = mul_add(base_rotation[0][1], t451, base_rotation[1][1] * t452);
+        let t456 = mul_add(base_rotation[2][1], t450, t455);
+        let t457 = mul_add(base_rotation[0][2], t451, base_rotation[1][2] * t452);
+        let t458 = mul_add(base_rotation[2][2], t450, t457);
+        // angular acceleration of the platform
+        let t459 = base_rotation[1][0] * platform_acceleration[4];
+        let t460 = mul_add(base_rotation[0][0], platform_acceleration[3], t459);
+        let t461 = mul_add(base_rotation[2][0], platform_acceleration[5], t460);
+        let t462 = base_rotation[1][1] * platform_acceleration[4];
+        let t463 = mul_add(base_rotation[0][1], platform_acceleration[3], t462);
+        let t464 = mul_add(base_rotation[2][1], platform_acceleration[5], t463);
+        let t465 = base_rotation[1][2] * platform_acceleration[4];
+        let t466 = mul_add(base_rotation[0][2], platform_acceleration[3], t465);
+        let t467 = mul_add(base_rotation[2][2], platform_acceleration[5], t466);
+        // acceleration per platform coordinate of points of the platform
+        let t468 = mul_sub(t3, t340, t21 * t334);
+        let t469 = mul_sub(t12, t334, t3 * t337);
+        let t470 = mul_add(t337, t469, mul_sub(t21, t464, t12 * t467));
+        let t471 = neg_mul_add(t340, t468, t470);
+        let t472 = mul_sub(t6, t340, t24 * t334);
+        let t473 = mul_sub(t15, t334, t6 * t337);
+        let t474 = mul_add(t337, t473, mul_sub(t24, t464, t15 * t467));
+        let t475 = neg_mul_add(t340, t472, t474);
+        let t476 = mul_sub(t9, t340, t27 * t334);
+        let t477 = mul_sub(t18, t334, t9 * t337);
+        let t478 = mul_add(t337, t477, mul_sub(t27, t464, t18 * t467));
+        let t479 = neg_mul_add(t340, t476, t478);
+        let t480 = mul_sub(t21, t337, t12 * t340);
+        let t481 = mul_add(t340, t480, mul_sub(t3, t467, t21 * t461));
+        let t482 = neg_mul_add(t334, t469, t481);
+        let t483 = mul_sub(t24, t337, t15 * t340);
+        let t484 = mul_add(t340, t483, mul_sub(t6, t467, t24 * t461));
+        let t485 = neg_mul_add(t334, t473, t484);
+        let t486 = mul_sub(t27, t337, t18 * t340);
+        let t487 = mul_add(t340, t486, mul_sub(t9, t467, t27 * t461));
+        let t488 = neg_mul_add(t334, t477, t487);
+        let t489 = mul_add(t334, t468, mul_sub(t12, t461, t3 * t464));
+        let t490 = neg_mul_add(t337, t480, t489);
+        let t491 = mul_add(t334, t472, mul_sub(t15, t461, t6 * t464));
+        let t492 = neg_mul_add(t337, t483, t491);
+        let t493 = mul_add(t334, t476, mul_sub(t18, t461, t9 * t464));
+        let t494 = neg_mul_add(t337, t486, t493);
+        // acceleration of the platform origin relative to the base, less w x v
+        let t495 = neg_mul_add(t36, t442, t426 - t454);
+        let t496 = mul_add(t32, t440, t34 * t441) + t495;
+        let t497 = t328 + t337;
+        let t498 = t331 + t340;
+        let t499 = t496 - mul_sub(t355, t497, t352 * t498);
+        let t500 = mul_sub(t32, t443, t34 * t445);
+        let t501 = mul_add(t36, t446, t428 - t456) - t500;
+        let t502 = t325 + t334;
+        let t503 = t501 - mul_sub(t349, t498, t355 * t502);
+        let t504 = mul_add(t36, t449, t430 - t458);
+        let t505 = mul_sub(t32, t447, t34 * t448) + t504;
+        let t506 = t505 - mul_sub(t352, t502, t349 * t497);
+        // rate of that angular velocity
+        let t507 = mul_add(t331, t342, neg_mul_add(t328, t343, t433 - t461));
+        let t508 = mul_add(t325, t343, neg_mul_add(t331, t341, t436 - t464));
+        let t509 = mul_add(t328, t341, neg_mul_add(t325, t342, t439 - t467));
+        // leg 1: acceleration of the platform joint relative to the base
+        let t510 = neg_mul_add(t42, t509, mul_add(t45, t508, t499));
+        let t511 = t510 - mul_sub(t342, t358, t343 * t357);
+        let t512 = neg_mul_add(t45, t507, mul_add(t39, t509, t503));
+        let t513 = t512 - mul_sub(t343, t356, t341 * t358);
+        let t514 = neg_mul_add(t39, t508, mul_add(t42, t507, t506));
+        let t515 = t514 - mul_sub(t341, t357, t342 * t356);
+        // leg 2: acceleration of the platform joint relative to the base
+        let t516 = neg_mul_add(t54, t509, mul_add(t57, t508, t499));
+        let t517 = t516 - mul_sub(t342, t361, t343 * t360);
+        let t518 = neg_mul_add(t57, t507, mul_add(t51, t509, t503));
+        let t519 = t518 - mul_sub(t343, t359, t341 * t361);
+        let t520 = neg_mul_add(t51, t508, mul_add(t54, t507, t506));
+        let t521 = t520 - mul_sub(t341, t360, t342 * t359);
+        // leg 3: acceleration of the platform joint relative to the base
+        let t522 = neg_mul_add(t66, t509, mul_add(t69, t508, t499));
+        let t523 = t522 - mul_sub(t342, t364, t343 * t363);
+        let t524 = neg_mul_add(t69, t507, mul_add(t63, t509, t503));
+        let t525 = t524 - mul_sub(t343, t362, t341 * t364);
+        let t526 = neg_mul_add(t63, t508, mul_add(t66, t507, t506));
+        let t527 = t526 - mul_sub(t341, t363, t342 * t362);
+        // leg 4: acceleration of the platform joint relative to the base
+        let t528 = neg_mul_add(t78, t509, mul_add(t81, t508, t499));
+        let t529 = t528 - mul_sub(t342, t367, t343 * t366);
+        let t530 = neg_mul_add(t81, t507, mul_add(t75, t509, t503));
+        let t531 = t530 - mul_sub(t343, t365, t341 * t367);
+        let t532 = neg_mul_add(t75, t508, mul_add(t78, t507, t506));
+        let t533 = t532 - mul_sub(t341, t366, t342 * t365);
+        // leg 5: acceleration of the platform joint relative to the base
+        let t534 = neg_mul_add(t90, t509, mul_add(t93, t508, t499));
+        let t535 = t534 - mul_sub(t342, t370, t343 * t369);
+        let t536 = neg_mul_add(t93, t507, mul_add(t87, t509, t503));
+        let t537 = t536 - mul_sub(t343, t368, t341 * t370);
+        let t538 = neg_mul_add(t87, t508, mul_add(t90, t507, t506));
+        let t539 = t538 - mul_sub(t341, t369, t342 * t368);
+        // leg 6: acceleration of the platform joint relative to the base
+        let t540 = neg_mul_add(t102, t509, mul_add(t105, t508, t499));
+        let t541 = t540 - mul_sub(t342, t373, t343 * t372);
+        let t542 = neg_mul_add(t105, t507, mul_add(t99, t509, t503));
+        let t543 = t542 - mul_sub(t343, t371, t341 * t373);
+        let t544 = neg_mul_add(t99, t508, mul_add(t102, t507, t506));
+        let t545 = t544 - mul_sub(t341, t372, t342 * t371);
+        // leg 1: actuator acceleration d''
+        let t546 = mul_add(t379, t379, mul_add(t377, t377, t378 * t378));
+        let t547 = mul_add(t177, t515, mul_add(t175, t511, t176 * t513));
+        let t548 = neg_mul_add(t118, mul_add(t381, t381, t546), t547);
+        // leg 2: actuator acceleration d''
+        let t549 = mul_add(t387, t387, mul_add(t385, t385, t386 * t386));
+        let t550 = mul_add(t180, t521, mul_add(t178, t517, t179 * t519));
+        let t551 = neg_mul_add(t129, mul_add(t389, t389, t549), t550);
+        // leg 3: actuator acceleration d''
+        let t552 = mul_add(t395, t395, mul_add(t393, t393, t394 * t394));
+        let t553 = mul_add(t183, t527, mul_add(t181, t523, t182 * t525));
+        let t554 = neg_mul_add(t140, mul_add(t397, t397, t552), t553);
+        // leg 4: actuator acceleration d''
+        let t555 = mul_add(t403, t403, mul_add(t401, t401, t402 * t402));
+        let t556 = mul_add(t186, t533, mul_add(t184, t529, t185 * t531));
+        let t557 = neg_mul_add(t151, mul_add(t405, t405, t555), t556);
+        // leg 5: actuator acceleration d''
+        let t558 = mul_add(t411, t411, mul_add(t409, t409, t410 * t410));
+        let t559 = mul_add(t189, t539, mul_add(t187, t535, t188 * t537));
+        let t560 = neg_mul_add(t162, mul_add(t413, t413, t558), t559);
+        // leg 6: actuator acceleration d''
+        let t561 = mul_add(t419, t419, mul_add(t417, t417, t418 * t418));
+        let t562 = mul_add(t192, t545, mul_add(t190, t541, t191 * t543));
+        let t563 = neg_mul_add(t173, mul_add(t421, t421, t561), t562);
+        // leg 1: leg inertia less weight along the actuator
+        let t564 = c(2.0) * t380;
+        let t565 = parameters.actuator_axis[0][1] * t331;
+        let t566 = mul_sub(parameters.actuator_axis[0][2], t328, t565);
+        let t567 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t568 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t569 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
+        let t570 = mul_add(t442, t567, t426) - mul_add(t440, t568, t441 * t569);
+        let t571 = neg_mul_add(t564, t566, t570);
+        let t572 = neg_mul_add(parameters.actuator_axis[0][0], t548, t571);
+        let t573 = parameters.actuator_axis[0][2] * t325;
+        let t574 = mul_sub(parameters.actuator_axis[0][0], t331, t573);
+        let t575 = mul_sub(t443, t568, t445 * t569);
+        let t576 = neg_mul_add(t564, t574, t575 + neg_mul_add(t446, t567, t428));
+        let t577 = neg_mul_add(parameters.actuator_axis[0][1], t548, t576);
+        let t578 = parameters.actuator_axis[0][0] * t328;
+        let t579 = mul_sub(parameters.actuator_axis[0][1], t325, t578);
+        let t580 = mul_sub(t447, t568, t448 * t569);
+        let t581 = neg_mul_add(t564, t579, neg_mul_add(t449, t567, t430) - t580);
+        let t582 = neg_mul_add(parameters.actuator_axis[0][2], t548, t581);
+        let t583 = mul_add(t579, t579, mul_add(t566, t566, t574 * t574));
+        let t584 = parameters.actuator_axis[0][1] * t577;
+        let t585 = mul_add(parameters.actuator_axis[0][0], t572, t584);
+        let t586 = mul_add(parameters.actuator_axis[0][2], t582, t585);
+        let t587 = mul_add(parameters.mover_offset[0], t583, t586);
+        let t588 = parameters.platform_point[0][1] * t492;
+        let t589 = mul_add(parameters.platform_point[0][2], t494, t458);
+        let t590 = mul_add(parameters.platform_point[0][0], t490, t588) + t589;
+        let t591 = parameters.platform_point[0][1] * t475;
+        let t592 = mul_add(parameters.platform_point[0][2], t479, t454);
+        let t593 = mul_add(parameters.platform_point[0][0], t471, t591) + t592;
+        let t594 = parameters.platform_point[0][1] * t485;
+        let t595 = mul_add(parameters.platform_point[0][2], t488, t456);
+        let t596 = mul_add(parameters.platform_point[0][0], t482, t594) + t595;
+        let t597 = parameters.actuator_axis[0][1] * t596;
+        let t598 = mul_add(parameters.actuator_axis[0][0], t593, t597);
+        let t599 = t198 * mul_add(parameters.actuator_axis[0][2], t590, t598);
+        let t600 = mul_add(parameters.mover_mass[0], t587, mul_sub(t195, t586, t599));
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t601 = t198 * t572;
+        let t602 = t198 * t577;
+        let t603 = t198 * t582;
+        // leg 2: leg inertia less weight along the actuator
+        let t604 = c(2.0) * t388;
+        let t605 = parameters.actuator_axis[1][1] * t331;
+        let t606 = mul_sub(parameters.actuator_axis[1][2], t328, t605);
+        let t607 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t608 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t609 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
+        let t610 = mul_add(t442, t607, t426) - mul_add(t440, t608, t441 * t609);
+        let t611 = neg_mul_add(t604, t606, t610);
+        let t612 = neg_mul_add(parameters.actuator_axis[1][0], t551, t611);
+        let t613 = parameters.actuator_axis[1][2] * t325;
+        let t614 = mul_sub(parameters.actuator_axis[1][0], t331, t613);
+        let t615 = mul_sub(t443, t608, t445 * t609);
+        let t616 = neg_mul_add(t604, t614, t615 + neg_mul_add(t446, t607, t428));
+        let t617 = neg_mul_add(parameters.actuator_axis[1][1], t551, t616);
+        let t618 = parameters.actuator_axis[1][0] * t328;
+        let t619 = mul_sub(parameters.actuator_axis[1][1], t325, t618);
+        let t620 = mul_sub(t447, t608, t448 * t609);
+        let t621 = neg_mul_add(t604, t619, neg_mul_add(t449, t607, t430) - t620);
+        let t622 = neg_mul_add(parameters.actuator_axis[1][2], t551, t621);
+        let t623 = mul_add(t619, t619, mul_add(t606, t606, t614 * t614));
+        let t624 = parameters.actuator_axis[1][1] * t617;
+        let t625 = mul_add(parameters.actuator_axis[1][0], t612, t624);
+        let t626 = mul_add(parameters.actuator_axis[1][2], t622, t625);
+        let t627 = mul_add(parameters.mover_offset[1], t623, t626);
+        let t628 = parameters.platform_point[1][1] * t492;
+        let t629 = mul_add(parameters.platform_point[1][2], t494, t458);
+        let t630 = mul_add(parameters.platform_point[1][0], t490, t628) + t629;
+        let t631 = parameters.platform_point[1][1] * t475;
+        let t632 = mul_add(parameters.platform_point[1][2], t479, t454);
+        let t633 = mul_add(parameters.platform_point[1][0], t471, t631) + t632;
+        let t634 = parameters.platform_point[1][1] * t485;
+        let t635 = mul_add(parameters.platform_point[1][2], t488, t456);
+        let t636 = mul_add(parameters.platform_point[1][0], t482, t634) + t635;
+        let t637 = parameters.actuator_axis[1][1] * t636;
+        let t638 = mul_add(parameters.actuator_axis[1][0], t633, t637);
+        let t639 = t204 * mul_add(parameters.actuator_axis[1][2], t630, t638);
+        let t640 = mul_add(parameters.mover_mass[1], t627, mul_sub(t201, t626, t639));
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t641 = t204 * t612;
+        let t642 = t204 * t617;
+        let t643 = t204 * t622;
+        // leg 3: leg inertia less weight along the actuator
+        let t644 = c(2.0) * t396;
+        let t645 = parameters.actuator_axis[2][1] * t331;
+        let t646 = mul_sub(parameters.actuator_axis[2][2], t328, t645);
+        let t647 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t648 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t649 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
+        let t650 = mul_add(t442, t647, t426) - mul_add(t440, t648, t441 * t649);
+        let t651 = neg_mul_add(t644, t646, t650);
+        let t652 = neg_mul_add(parameters.actuator_axis[2][0], t554, t651);
+        let t653 = parameters.actuator_axis[2][2] * t325;
+        let t654 = mul_sub(parameters.actuator_axis[2][0], t331, t653);
+        let t655 = mul_sub(t443, t648, t445 * t649);
+        let t656 = neg_mul_add(t644, t654, t655 + neg_mul_add(t446, t647, t428));
+        let t657 = neg_mul_add(parameters.actuator_axis[2][1], t554, t656);
+        let t658 = parameters.actuator_axis[2][0] * t328;
+        let t659 = mul_sub(parameters.actuator_axis[2][1], t325, t658);
+        let t660 = mul_sub(t447, t648, t448 * t649);
+        let t661 = neg_mul_add(t644, t659, neg_mul_add(t449, t647, t430) - t660);
+        let t662 = neg_mul_add(parameters.actuator_axis[2][2], t554, t661);
+        let t663 = mul_add(t659, t659, mul_add(t646, t646, t654 * t654));
+        let t664 = parameters.actuator_axis[2][1] * t657;
+        let t665 = mul_add(parameters.actuator_axis[2][0], t652, t664);
+        let t666 = mul_add(parameters.actuator_axis[2][2], t662, t665);
+        let t667 = mul_add(parameters.mover_offset[2], t663, t666);
+        let t668 = parameters.platform_point[2][1] * t492;
+        let t669 = mul_add(parameters.platform_point[2][2], t494, t458);
+        let t670 = mul_add(parameters.platform_point[2][0], t490, t668) + t669;
+        let t671 = parameters.platform_point[2][1] * t475;
+        let t672 = mul_add(parameters.platform_point[2][2], t479, t454);
+        let t673 = mul_add(parameters.platform_point[2][0], t471, t671) + t672;
+        let t674 = parameters.platform_point[2][1] * t485;
+        let t675 = mul_add(parameters.platform_point[2][2], t488, t456);
+        let t676 = mul_add(parameters.platform_point[2][0], t482, t674) + t675;
+        let t677 = parameters.actuator_axis[2][1] * t676;
+        let t678 = mul_add(parameters.actuator_axis[2][0], t673, t677);
+        let t679 = t210 * mul_add(parameters.actuator_axis[2][2], t670, t678);
+        let t680 = mul_add(parameters.mover_mass[2], t667, mul_sub(t207, t666, t679));
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t681 = t210 * t652;
+        let t682 = t210 * t657;
+        let t683 = t210 * t662;
+        // leg 4: leg inertia less weight along the actuator
+        let t684 = c(2.0) * t404;
+        let t685 = parameters.actuator_axis[3][1] * t331;
+        let t686 = mul_sub(parameters.actuator_axis[3][2], t328, t685);
+        let t687 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t688 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t689 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
+        let t690 = mul_add(t442, t687, t426) - mul_add(t440, t688, t441 * t689);
+        let t691 = neg_mul_add(t684, t686, t690);
+        let t692 = neg_mul_add(parameters.actuator_axis[3][0], t557, t691);
+        let t693 = parameters.actuator_axis[3][2] * t325;
+        let t694 = mul_sub(parameters.actuator_axis[3][0], t331, t693);
+        let t695 = mul_sub(t443, t688, t445 * t689);
+        let t696 = neg_mul_add(t684, t694, t695 + neg_mul_add(t446, t687, t428));
+        let t697 = neg_mul_add(parameters.actuator_axis[3][1], t557, t696);
+        let t698 = parameters.actuator_axis[3][0] * t328;
+        let t699 = mul_sub(parameters.actuator_axis[3][1], t325, t698);
+        let t700 = mul_sub(t447, t688, t448 * t689);
+        let t701 = neg_mul_add(t684, t699, neg_mul_add(t449, t687, t430) - t700);
+        let t702 = neg_mul_add(parameters.actuator_axis[3][2], t557, t701);
+        let t703 = mul_add(t699, t699, mul_add(t686, t686, t694 * t694));
+        let t704 = parameters.actuator_axis[3][1] * t697;
+        let t705 = mul_add(parameters.actuator_axis[3][0], t692, t704);
+        let t706 = mul_add(parameters.actuator_axis[3][2], t702, t705);
+        let t707 = mul_add(parameters.mover_offset[3], t703, t706);
+        let t708 = parameters.platform_point[3][1] * t492;
+        let t709 = mul_add(parameters.platform_point[3][2], t494, t458);
+        let t710 = mul_add(parameters.platform_point[3][0], t490, t708) + t709;
+        let t711 = parameters.platform_point[3][1] * t475;
+        let t712 = mul_add(parameters.platform_point[3][2], t479, t454);
+        let t713 = mul_add(parameters.platform_point[3][0], t471, t711) + t712;
+        let t714 = parameters.platform_point[3][1] * t485;
+        let t715 = mul_add(parameters.platform_point[3][2], t488, t456);
+        let t716 = mul_add(parameters.platform_point[3][0], t482, t714) + t715;
+        let t717 = parameters.actuator_axis[3][1] * t716;
+        let t718 = mul_add(parameters.actuator_axis[3][0], t713, t717);
+        let t719 = t216 * mul_add(parameters.actuator_axis[3][2], t710, t718);
+        let t720 = mul_add(parameters.mover_mass[3], t707, mul_sub(t213, t706, t719));
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t721 = t216 * t692;
+        let t722 = t216 * t697;
+        let t723 = t216 * t702;
+        // leg 5: leg inertia less weight along the actuator
+        let t724 = c(2.0) * t412;
+        let t725 = parameters.actuator_axis[4][1] * t331;
+        let t726 = mul_sub(parameters.actuator_axis[4][2], t328, t725);
+        let t727 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t728 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t729 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
+        let t730 = mul_add(t442, t727, t426) - mul_add(t440, t728, t441 * t729);
+        let t731 = neg_mul_add(t724, t726, t730);
+        let t732 = neg_mul_add(parameters.actuator_axis[4][0], t560, t731);
+        let t733 = parameters.actuator_axis[4][2] * t325;
+        let t734 = mul_sub(parameters.actuator_axis[4][0], t331, t733);
+        let t735 = mul_sub(t443, t728, t445 * t729);
+        let t736 = neg_mul_add(t724, t734, t735 + neg_mul_add(t446, t727, t428));
+        let t737 = neg_mul_add(parameters.actuator_axis[4][1], t560, t736);
+        let t738 = parameters.actuator_axis[4][0] * t328;
+        let t739 = mul_sub(parameters.actuator_axis[4][1], t325, t738);
+        let t740 = mul_sub(t447, t728, t448 * t729);
+        let t741 = neg_mul_add(t724, t739, neg_mul_add(t449, t727, t430) - t740);
+        let t742 = neg_mul_add(parameters.actuator_axis[4][2], t560, t741);
+        let t743 = mul_add(t739, t739, mul_add(t726, t726, t734 * t734));
+        let t744 = parameters.actuator_axis[4][1] * t737;
+        let t745 = mul_add(parameters.actuator_axis[4][0], t732, t744);
+        let t746 = mul_add(parameters.actuator_axis[4][2], t742, t745);
+        let t747 = mul_add(parameters.mover_offset[4], t743, t746);
+        let t748 = parameters.platform_point[4][1] * t492;
+        let t749 = mul_add(parameters.platform_point[4][2], t494, t458);
+        let t750 = mul_add(parameters.platform_point[4][0], t490, t748) + t749;
+        let t751 = parameters.platform_point[4][1] * t475;
+        let t752 = mul_add(parameters.platform_point[4][2], t479, t454);
+        let t753 = mul_add(parameters.platform_point[4][0], t471, t751) + t752;
+        let t754 = parameters.platform_point[4][1] * t485;
+        let t755 = mul_add(parameters.platform_point[4][2], t488, t456);
+        let t756 = mul_add(parameters.platform_point[4][0], t482, t754) + t755;
+        let t757 = parameters.actuator_axis[4][1] * t756;
+        let t758 = mul_add(parameters.actuator_axis[4][0], t753, t757);
+        let t759 = t222 * mul_add(parameters.actuator_axis[4][2], t750, t758);
+        let t760 = mul_add(parameters.mover_mass[4], t747, mul_sub(t219, t746, t759));
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t761 = t222 * t732;
+        let t762 = t222 * t737;
+        let t763 = t222 * t742;
+        // leg 6: leg inertia less weight along the actuator
+        let t764 = c(2.0) * t420;
+        let t765 = parameters.actuator_axis[5][1] * t331;
+        let t766 = mul_sub(parameters.actuator_axis[5][2], t328, t765);
+        let t767 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t768 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t769 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
+        let t770 = mul_add(t442, t767, t426) - mul_add(t440, t768, t441 * t769);
+        let t771 = neg_mul_add(t764, t766, t770);
+        let t772 = neg_mul_add(parameters.actuator_axis[5][0], t563, t771);
+        let t773 = parameters.actuator_axis[5][2] * t325;
+        let t774 = mul_sub(parameters.actuator_axis[5][0], t331, t773);
+        let t775 = mul_sub(t443, t768, t445 * t769);
+        let t776 = neg_mul_add(t764, t774, t775 + neg_mul_add(t446, t767, t428));
+        let t777 = neg_mul_add(parameters.actuator_axis[5][1], t563, t776);
+        let t778 = parameters.actuator_axis[5][0] * t328;
+        let t779 = mul_sub(parameters.actuator_axis[5][1], t325, t778);
+        let t780 = mul_sub(t447, t768, t448 * t769);
+        let t781 = neg_mul_add(t764, t779, neg_mul_add(t449, t767, t430) - t780);
+        let t782 = neg_mul_add(parameters.actuator_axis[5][2], t563, t781);
+        let t783 = mul_add(t779, t779, mul_add(t766, t766, t774 * t774));
+        let t784 = parameters.actuator_axis[5][1] * t777;
+        let t785 = mul_add(parameters.actuator_axis[5][0], t772, t784);
+        let t786 = mul_add(parameters.actuator_axis[5][2], t782, t785);
+        let t787 = mul_add(parameters.mover_offset[5], t783, t786);
+        let t788 = parameters.platform_point[5][1] * t492;
+        let t789 = mul_add(parameters.platform_point[5][2], t494, t458);
+        let t790 = mul_add(parameters.platform_point[5][0], t490, t788) + t789;
+        let t791 = parameters.platform_point[5][1] * t475;
+        let t792 = mul_add(parameters.platform_point[5][2], t479, t454);
+        let t793 = mul_add(parameters.platform_point[5][0], t471, t791) + t792;
+        let t794 = parameters.platform_point[5][1] * t485;
+        let t795 = mul_add(parameters.platform_point[5][2], t488, t456);
+        let t796 = mul_add(parameters.platform_point[5][0], t482, t794) + t795;
+        let t797 = parameters.actuator_axis[5][1] * t796;
+        let t798 = mul_add(parameters.actuator_axis[5][0], t793, t797);
+        let t799 = t228 * mul_add(parameters.actuator_axis[5][2], t790, t798);
+        let t800 = mul_add(parameters.mover_mass[5], t787, mul_sub(t225, t786, t799));
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t801 = t228 * t772;
+        let t802 = t228 * t777;
+        let t803 = t228 * t782;
+        // leg 1: spring and damper force along the actuator
+        let t804 = parameters.rest_length[0] + t119;
+        let t805 = parameters.axial_damping[0] * t380;
+        let t806 = mul_add(parameters.axial_stiffness[0], t804, t805);
+        // leg 2: spring and damper force along the actuator
+        let t807 = parameters.rest_length[1] + t130;
+        let t808 = parameters.axial_damping[1] * t388;
+        let t809 = mul_add(parameters.axial_stiffness[1], t807, t808);
+        // leg 3: spring and damper force along the actuator
+        let t810 = parameters.rest_length[2] + t141;
+        let t811 = parameters.axial_damping[2] * t396;
+        let t812 = mul_add(parameters.axial_stiffness[2], t810, t811);
+        // leg 4: spring and damper force along the actuator
+        let t813 = parameters.rest_length[3] + t152;
+        let t814 = parameters.axial_damping[3] * t404;
+        let t815 = mul_add(parameters.axial_stiffness[3], t813, t814);
+        // leg 5: spring and damper force along the actuator
+        let t816 = parameters.rest_length[4] + t163;
+        let t817 = parameters.axial_damping[4] * t412;
+        let t818 = mul_add(parameters.axial_stiffness[4], t816, t817);
+        // leg 6: spring and damper force along the actuator
+        let t819 = parameters.rest_length[5] + t174;
+        let t820 = parameters.axial_damping[5] * t420;
+        let t821 = mul_add(parameters.axial_stiffness[5], t819, t820);
+        // leg 1: row of the actuator Jacobian in base coordinates
+        let t822 = mul_sub(t42, t177, t45 * t176);
+        let t823 = mul_sub(t45, t175, t39 * t177);
+        let t824 = mul_sub(t39, t176, t42 * t175);
+        // leg 2: row of the actuator Jacobian in base coordinates
+        let t825 = mul_sub(t54, t180, t57 * t179);
+        let t826 = mul_sub(t57, t178, t51 * t180);
+        let t827 = mul_sub(t51, t179, t54 * t178);
+        // leg 3: row of the actuator Jacobian in base coordinates
+        let t828 = mul_sub(t66, t183, t69 * t182);
+        let t829 = mul_sub(t69, t181, t63 * t183);
+        let t830 = mul_sub(t63, t182, t66 * t181);
+        // leg 4: row of the actuator Jacobian in base coordinates
+        let t831 = mul_sub(t78, t186, t81 * t185);
+        let t832 = mul_sub(t81, t184, t75 * t186);
+        let t833 = mul_sub(t75, t185, t78 * t184);
+        // leg 5: row of the actuator Jacobian in base coordinates
+        let t834 = mul_sub(t90, t189, t93 * t188);
+        let t835 = mul_sub(t93, t187, t87 * t189);
+        let t836 = mul_sub(t87, t188, t90 * t187);
+        // leg 6: row of the actuator Jacobian in base coordinates
+        let t837 = mul_sub(t102, t192, t105 * t191);
+        let t838 = mul_sub(t105, t190, t99 * t192);
+        let t839 = mul_sub(t99, t191, t102 * t190);
+        // leg 1: moment about the platform origin of the leg's inertia at its joint
+        let t840 = mul_sub(t42, t603, t45 * t602);
+        let t841 = mul_sub(t45, t601, t39 * t603);
+        let t842 = mul_sub(t39, t602, t42 * t601);
+        // leg 2: moment about the platform origin of the leg's inertia at its joint
+        let t843 = mul_sub(t54, t643, t57 * t642);
+        let t844 = mul_sub(t57, t641, t51 * t643);
+        let t845 = mul_sub(t51, t642, t54 * t641);
+        // leg 4: moment about the platform origin of the leg's inertia at its joint
+        let t846 = mul_sub(t78, t723, t81 * t722);
+        let t847 = mul_sub(t81, t721, t75 * t723);
+        let t848 = mul_sub(t75, t722, t78 * t721);
+        // leg 6: moment about the platform origin of the leg's inertia at its joint
+        let t849 = mul_sub(t102, t803, t105 * t802);
+        let t850 = mul_sub(t105, t801, t99 * t803);
+        let t851 = mul_sub(t99, t802, t102 * t801);
+        // inertia force less weight, without the actuators' own shares
+        let t852 = mul_add(t251, t479, mul_add(t237, t471, t244 * t475));
+        let t853 = mul_add(t251, t488, mul_add(t237, t482, t244 * t485));
+        let t854 = mul_add(t251, t494, mul_add(t237, t490, t244 * t492));
+        // first moments by platform coordinate of the payload's inertia force
+        let t855 = mul_add(t287, t479, mul_add(t265, t471, t276 * t475));
+        let t856 = mul_sub(t237, t454, t855);
+        let t857 = mul_add(t310, t479, mul_add(t276, t471, t299 * t475));
+        let t858 = mul_sub(t244, t454, t857);
+        let t859 = mul_add(t322, t479, mul_add(t287, t471, t310 * t475));
+        let t860 = mul_sub(t251, t454, t859);
+        let t861 = mul_add(t287, t488, mul_add(t265, t482, t276 * t485));
+        let t862 = mul_sub(t237, t456, t861);
+        let t863 = mul_add(t310, t488, mul_add(t276, t482, t299 * t485));
+        let t864 = mul_sub(t244, t456, t863);
+        let t865 = mul_add(t322, t488, mul_add(t287, t482, t310 * t485));
+        let t866 = mul_sub(t251, t456, t865);
+        let t867 = mul_add(t287, t494, mul_add(t265, t490, t276 * t492));
+        let t868 = mul_sub(t237, t458, t867);
+        let t869 = mul_add(t310, t494, mul_add(t276, t490, t299 * t492));
+        let t870 = mul_sub(t244, t458, t869);
+        let t871 = mul_add(t322, t494, mul_add(t287, t490, t310 * t492));
+        let t872 = mul_sub(t251, t458, t871);
+        // moment of the legs' inertia at their joints about the platform origin
+        let t873 = neg_mul_add(t69, t682, mul_add(t66, t683, t846));
+        let t874 = neg_mul_add(t93, t762, mul_add(t90, t763, t849));
+        let t875 = t840 + t843 + t873 + t874;
+        let t876 = neg_mul_add(t63, t683, mul_add(t69, t681, t847));
+        let t877 = neg_mul_add(t87, t763, mul_add(t93, t761, t850));
+        let t878 = t841 + t844 + t876 + t877;
+        let t879 = neg_mul_add(t66, t681, mul_add(t63, t682, t848));
+        let t880 = neg_mul_add(t90, t761, mul_add(t87, t762, t851));
+        let t881 = t842 + t845 + t879 + t880;
+        // inertia less external wrench that the actuators must balance
+        let t882 = base_rotation[1][0] * external_wrench[1];
+        let t883 = mul_add(base_rotation[0][0], external_wrench[0], t882);
+        let t884 = mul_add(base_rotation[2][0], external_wrench[2], t883);
+        let t885 = mul_add(t198, t572, neg_mul_add(t230, t454, t884) - t852);
+        let t886 = mul_add(t210, t652, mul_add(t204, t612, t885));
+        let t887 = mul_add(t222, t732, mul_add(t216, t692, t886));
+        let t888 = mul_add(t228, t772, t887);
+        let t889 = -t888;
+        let t890 = base_rotation[1][1] * external_wrench[1];
+        let t891 = mul_add(base_rotation[0][1], external_wrench[0], t890);
+        let t892 = mul_add(base_rotation[2][1], external_wrench[2], t891);
+        let t893 = mul_add(t198, t577, neg_mul_add(t230, t456, t892) - t853);
+        let t894 = mul_add(t210, t657, mul_add(t204, t617, t893));
+        let t895 = mul_add(t222, t737, mul_add(t216, t697, t894));
+        let t896 = mul_add(t228, t777, t895);
+        let t897 = -t896;
+        let t898 = base_rotation[1][2] * external_wrench[1];
+        let t899 = mul_add(base_rotation[0][2], external_wrench[0], t898);
+        let t900 = mul_add(base_rotation[2][2], external_wrench[2], t899);
+        let t901 = mul_add(t198, t582, neg_mul_add(t230, t458, t900) - t854);
+        let t902 = mul_add(t210, t662, mul_add(t204, t622, t901));
+        let t903 = mul_add(t222, t742, mul_add(t216, t702, t902));
+        let t904 = mul_add(t228, t782, t903);
+        let t905 = -t904;
+        let t906 = neg_mul_add(parameters.payload_com[2], t892, t866);
+        let t907 = neg_mul_add(parameters.payload_com[2], t900, t872);
+        let t908 = base_rotation[1][0] * external_wrench[4];
+        let t909 = mul_add(base_rotation[0][0], external_wrench[3], t908);
+        let t910 = mul_add(base_rotation[2][0], external_wrench[5], t909);
+        let t911 = mul_add(t27, t906, neg_mul_add(t18, t907, t910));
+        let t912 = neg_mul_add(parameters.payload_com[0], t900, t868);
+        let t913 = neg_mul_add(parameters.payload_com[0], t892, t862);
+        let t914 = neg_mul_add(parameters.payload_com[1], t900, t870);
+        let t915 = neg_mul_add(parameters.payload_com[1], t892, t864);
+        let t916 = mul_sub(t15, t914, t24 * t915);
+        let t917 = t875 + (t911 - (mul_sub(t12, t912, t21 * t913) + t916));
+        let t918 = -t917;
+        let t919 = neg_mul_add(parameters.payload_com[2], t884, t860);
+        let t920 = base_rotation[1][1] * external_wrench[4];
+        let t921 = mul_add(base_rotation[0][1], external_wrench[3], t920);
+        let t922 = mul_add(base_rotation[2][1], external_wrench[5], t921);
+        let t923 = mul_add(t9, t907, neg_mul_add(t27, t919, t922));
+        let t924 = neg_mul_add(parameters.payload_com[0], t884, t856);
+        let t925 = neg_mul_add(parameters.payload_com[1], t884, t858);
+        let t926 = mul_sub(t24, t925, t6 * t914);
+        let t927 = t878 + (t923 - (mul_sub(t21, t924, t3 * t912) + t926));
+        let t928 = -t927;
+        let t929 = base_rotation[1][2] * external_wrench[4];
+        let t930 = mul_add(base_rotation[0][2], external_wrench[3], t929);
+        let t931 = mul_add(base_rotation[2][2], external_wrench[5], t930);
+        let t932 = mul_add(t18, t919, neg_mul_add(t9, t906, t931));
+        let t933 = mul_sub(t6, t915, t15 * t925);
+        let t934 = t881 + (t932 - (mul_sub(t3, t913, t12 * t924) + t933));
+        let t935 = -t934;
+        (
+            t175, t176, t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t187, t188,
+            t189, t190, t191, t192, t600, t640, t680, t720, t760, t800, t806, t809, t812, t815,
+            t818, t821, t822, t823, t824, t825, t826, t827, t828, t829, t830, t831, t832, t833,
+            t834, t835, t836, t837, t838, t839, t888, t889, t896, t897, t904, t905, t917, t918,
+            t927, t928, t934, t935,
+        )
+    };
+    {
+        // force along the actuator that balances the remaining wrench
+        let t936 = mul_sub(t176, t183, t177 * t182);
+        let t937 = mul_sub(t182, t189, t183 * t188);
+        let t938 = mul_sub(t177, t188, t176 * t189);
+        let t939 = mul_add(t187, t936, mul_add(t175, t937, t181 * t938));
+        let t940 = c(1.0) / t939;
+        let t941 = mul_sub(t181, t188, t182 * t187);
+        let t942 = mul_sub(t183, t187, t181 * t189);
+        let t943 = mul_add(t192, t941, mul_add(t190, t937, t191 * t942));
+        let t944 = mul_sub(t175, t182, t176 * t181);
+        let t945 = mul_sub(t177, t181, t175 * t183);
+        let t946 = mul_add(t192, t944, mul_add(t190, t936, t191 * t945));
+        let t947 = mul_sub(t176, t187, t175 * t188);
+        let t948 = mul_sub(t175, t189, t177 * t187);
+        let t949 = mul_add(t192, t947, mul_add(t190, t938, t191 * t948));
+        let t950 = neg_mul_add(t828, t949, mul_sub(t837, t939, t822 * t943));
+        let t951 = neg_mul_add(t834, t946, t950);
+        let t952 = mul_add(t180, t944, mul_add(t178, t936, t179 * t945));
+        let t953 = mul_add(t180, t947, mul_add(t178, t938, t179 * t948));
+        let t954 = mul_add(t180, t941, mul_add(t178, t937, t179 * t942));
+        let t955 = neg_mul_add(t829, t953, mul_sub(t826, t939, t823 * t954));
+        let t956 = neg_mul_add(t835, t952, t955);
+        let t957 = mul_add(t186, t944, mul_add(t184, t936, t185 * t945));
+        let t958 = mul_add(t186, t947, mul_add(t184, t938, t185 * t948));
+        let t959 = mul_add(t186, t941, mul_add(t184, t937, t185 * t942));
+        let t960 = neg_mul_add(t830, t958, mul_sub(t833, t939, t824 * t959));
+        let t961 = neg_mul_add(t836, t957, t960);
+        let t962 = neg_mul_add(t829, t958, mul_sub(t832, t939, t823 * t959));
+        let t963 = neg_mul_add(t835, t957, t962);
+        let t964 = neg_mul_add(t830, t953, mul_sub(t827, t939, t824 * t954));
+        let t965 = neg_mul_add(t836, t952, t964);
+        let t966 = mul_sub(t956, t961, t963 * t965);
+        let t967 = neg_mul_add(t828, t953, mul_sub(t825, t939, t822 * t954));
+        let t968 = neg_mul_add(t834, t952, t967);
+        let t969 = neg_mul_add(t830, t949, mul_sub(t839, t939, t824 * t943));
+        let t970 = neg_mul_add(t836, t946, t969);
+        let t971 = neg_mul_add(t829, t949, mul_sub(t838, t939, t823 * t943));
+        let t972 = neg_mul_add(t835, t946, t971);
+        let t973 = mul_sub(t963, t970, t972 * t961);
+        let t974 = neg_mul_add(t828, t958, mul_sub(t831, t939, t822 * t959));
+        let t975 = neg_mul_add(t834, t957, t974);
+        let t976 = mul_sub(t972, t965, t956 * t970);
+        let t977 = c(1.0) / mul_add(t951, t966, mul_add(t968, t973, t975 * t976));
+        let t978 = mul_add(t904, t944, mul_add(t888, t936, t896 * t945));
+        let t979 = mul_add(t904, t947, mul_add(t888, t938, t896 * t948));
+        let t980 = mul_add(t904, t941, mul_add(t888, t937, t896 * t942));
+        let t981 = neg_mul_add(t830, t979, mul_sub(t934, t939, t824 * t980));
+        let t982 = neg_mul_add(t836, t978, t981);
+        let t983 = neg_mul_add(t828, t979, mul_sub(t917, t939, t822 * t980));
+        let t984 = neg_mul_add(t834, t978, t983);
+        let t985 = neg_mul_add(t829, t979, mul_sub(t927, t939, t823 * t980));
+        let t986 = neg_mul_add(t835, t978, t985);
+        let t987 = mul_add(t984, t966, t986 * mul_sub(t975, t965, t968 * t961));
+        let t988 = t977 * mul_add(t982, mul_sub(t968, t963, t975 * t956), t987);
+        let t989 = mul_add(t984, t976, t986 * mul_sub(t968, t970, t951 * t965));
+        let t990 = t977 * mul_add(t982, mul_sub(t951, t956, t968 * t972), t989);
+        let t991 = mul_add(t984, t973, t986 * mul_sub(t951, t961, t975 * t970));
+        let t992 = t977 * mul_add(t982, mul_sub(t975, t972, t951 * t963), t991);
+        let t993 = neg_mul_add(t959, t990, neg_mul_add(t954, t992, t980));
+        let t994 = t940 * mul_sub(t943, t988, t993);
+        let t995 = -t992;
+        let t996 = neg_mul_add(t958, t990, neg_mul_add(t953, t992, t979));
+        let t997 = t940 * mul_sub(t949, t988, t996);
+        let t998 = -t990;
+        let t999 = neg_mul_add(t957, t990, neg_mul_add(t952, t992, t978));
+        let t1000 = t940 * mul_sub(t946, t988, t999);
+        let t1001 = -t988;
+        let axial_reaction = solve_after_attempt(
+            &[t994, t995, t997, t998, t1000, t1001],
+            &[
+                [t175, t178, t181, t184, t187, t190],
+                [t176, t179, t182, t185, t188, t191],
+                [t177, t180, t183, t186, t189, t192],
+                [t822, t825, t828, t831, t834, t837],
+                [t823, t826, t829, t832, t835, t838],
+                [t824, t827, t830, t833, t836, t839],
+            ],
+            &[t889, t897, t905, t918, t928, t935],
+        );
+        // leg 1: actuator forces F
+        inverse_dynamics[0] = axial_reaction[0] + (t600 - t806);
+        // leg 2: actuator forces F
+        inverse_dynamics[1] = axial_reaction[1] + (t640 - t809);
+        // leg 3: actuator forces F
+        inverse_dynamics[2] = axial_reaction[2] + (t680 - t812);
+        // leg 4: actuator forces F
+        inverse_dynamics[3] = axial_reaction[3] + (t720 - t815);
+        // leg 5: actuator forces F
+        inverse_dynamics[4] = axial_reaction[4] + (t760 - t818);
+        // leg 6: actuator forces F
+        inverse_dynamics[5] = axial_reaction[5] + (t800 - t821);
+    }
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -24713,56 +24802,126 @@ pub fn control<T: Scalar>(
         total_bias[4] = -t1306;
         total_bias[5] = -t1310;
         // inertia less external wrench that the actuators must balance
-        let t1311 = mul_add(platform_acceleration[0], t678, platform_acceleration[1] * t569);
-        let t1312 = mul_add(platform_acceleration[2], t570, t1311);
-        let t1313 = neg_mul_add(platform_acceleration[3], t576, t1312);
-        let t1314 = neg_mul_add(platform_acceleration[4], t681, t1313);
-        let t1315 = neg_mul_add(platform_acceleration[5], t684, t1314) - t1290;
-        let t1316 = t1315 - external_wrench[0];
-        let t1317 = mul_add(platform_acceleration[0], t569, platform_acceleration[1] * t685);
-        let t1318 = mul_add(platform_acceleration[2], t594, t1317);
-        let t1319 = neg_mul_add(platform_acceleration[3], t686, t1318);
-        let t1320 = mul_add(platform_acceleration[4], t614, t1319);
-        let t1321 = neg_mul_add(platform_acceleration[5], t689, t1320) - t1294;
-        let t1322 = t1321 - external_wrench[1];
-        let t1323 = mul_add(platform_acceleration[0], t570, platform_acceleration[1] * t594);
-        let t1324 = mul_add(platform_acceleration[2], t690, t1323);
-        let t1325 = neg_mul_add(platform_acceleration[3], t691, t1324);
-        let t1326 = neg_mul_add(platform_acceleration[4], t692, t1325);
-        let t1327 = neg_mul_add(platform_acceleration[5], t645, t1326) - t1298;
-        let t1328 = t1327 - external_wrench[2];
-        let t1329 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1330 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1329);
-        let t1331 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1330);
-        let t1332 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1333 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1332);
-        let t1334 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1333);
-        let t1335 = mul_add(external_wrench[2], t1334, external_wrench[3]);
-        let t1336 = neg_mul_add(external_wrench[1], t1331, t1335);
-        let t1337 = mul_add(platform_acceleration[0], t576, platform_acceleration[1] * t686);
-        let t1338 = mul_add(platform_acceleration[2], t691, t1337);
-        let t1339 = neg_mul_add(platform_acceleration[3], t702, t1338);
-        let t1340 = mul_add(platform_acceleration[4], t705, t1339);
-        let t1341 = mul_sub(platform_acceleration[5], t708, t1336) - t1340 - t1302;
-        let t1342 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1343 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1342);
-        let t1344 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1343);
-        let t1345 = mul_add(external_wrench[0], t1331, external_wrench[4]);
-        let t1346 = neg_mul_add(external_wrench[2], t1344, t1345);
-        let t1347 = mul_sub(platform_acceleration[0], t681, platform_acceleration[1] * t614);
-        let t1348 = mul_add(platform_acceleration[2], t692, t1347);
-        let t1349 = mul_add(platform_acceleration[3], t705, t1348);
-        let t1350 = neg_mul_add(platform_acceleration[4], t717, t1349);
-        let t1351 = mul_sub(platform_acceleration[5], t720, t1346) - t1350 - t1306;
-        let t1352 = mul_add(external_wrench[1], t1344, external_wrench[5]);
-        let t1353 = neg_mul_add(external_wrench[0], t1334, t1352);
+        let t1311 = mul_add(platform_acceleration[5], t684, external_wrench[0]);
+        let t1312 = mul_add(platform_acceleration[0], t678, platform_acceleration[1] * t569);
+        let t1313 = mul_add(platform_acceleration[2], t570, t1312);
+        let t1314 = neg_mul_add(platform_acceleration[3], t576, t1313);
+        let t1315 = t1290 + (t1311 - neg_mul_add(platform_acceleration[4], t681, t1314));
+        let t1316 = -t1315;
+        let t1317 = mul_add(platform_acceleration[5], t689, external_wrench[1]);
+        let t1318 = mul_add(platform_acceleration[0], t569, platform_acceleration[1] * t685);
+        let t1319 = mul_add(platform_acceleration[2], t594, t1318);
+        let t1320 = neg_mul_add(platform_acceleration[3], t686, t1319);
+        let t1321 = t1294 + (t1317 - mul_add(platform_acceleration[4], t614, t1320));
+        let t1322 = -t1321;
+        let t1323 = mul_add(platform_acceleration[5], t645, external_wrench[2]);
+        let t1324 = mul_add(platform_acceleration[0], t570, platform_acceleration[1] * t594);
+        let t1325 = mul_add(platform_acceleration[2], t690, t1324);
+        let t1326 = neg_mul_add(platform_acceleration[3], t691, t1325);
+        let t1327 = t1298 + (t1323 - neg_mul_add(platform_acceleration[4], t692, t1326));
+        let t1328 = -t1327;
+        let t1329 = mul_add(platform_acceleration[0], t576, platform_acceleration[1] * t686);
+        let t1330 = mul_add(platform_acceleration[2], t691, t1329);
+        let t1331 = neg_mul_add(platform_acceleration[3], t702, t1330);
+        let t1332 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1333 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1332);
+        let t1334 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1333);
+        let t1335 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1336 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1335);
+        let t1337 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1336);
+        let t1338 = mul_add(external_wrench[2], t1337, external_wrench[3]);
+        let t1339 = neg_mul_add(external_wrench[1], t1334, t1338);
+        let t1340 = neg_mul_add(platform_acceleration[5], t708, t1339);
+        let t1341 = t1302 + (mul_add(platform_acceleration[4], t705, t1331) + t1340);
+        let t1342 = -t1341;
+        let t1343 = mul_sub(platform_acceleration[0], t681, platform_acceleration[1] * t614);
+        let t1344 = mul_add(platform_acceleration[2], t692, t1343);
+        let t1345 = mul_add(platform_acceleration[3], t705, t1344);
+        let t1346 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1347 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1346);
+        let t1348 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1347);
+        let t1349 = mul_add(external_wrench[0], t1334, external_wrench[4]);
+        let t1350 = neg_mul_add(external_wrench[2], t1348, t1349);
+        let t1351 = neg_mul_add(platform_acceleration[5], t720, t1350);
+        let t1352 = t1306 + (neg_mul_add(platform_acceleration[4], t717, t1345) + t1351);
+        let t1353 = -t1352;
         let t1354 = mul_add(platform_acceleration[0], t684, platform_acceleration[1] * t689);
         let t1355 = mul_add(platform_acceleration[2], t645, t1354);
         let t1356 = neg_mul_add(platform_acceleration[3], t708, t1355);
-        let t1357 = neg_mul_add(platform_acceleration[4], t720, t1356);
-        let t1358 = mul_sub(platform_acceleration[5], t729, t1353) - t1357 - t1310;
+        let t1357 = mul_add(external_wrench[1], t1348, external_wrench[5]);
+        let t1358 = neg_mul_add(external_wrench[0], t1337, t1357);
+        let t1359 = neg_mul_add(platform_acceleration[5], t729, t1358);
+        let t1360 = t1310 + (neg_mul_add(platform_acceleration[4], t720, t1356) + t1359);
+        let t1361 = -t1360;
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1362 = mul_sub(t250, t264, t252 * t262);
+        let t1363 = mul_sub(t262, t276, t264 * t274);
+        let t1364 = mul_sub(t252, t274, t250 * t276);
+        let t1365 = mul_add(t272, t1362, mul_add(t248, t1363, t260 * t1364));
+        let t1366 = c(1.0) / t1365;
+        let t1367 = mul_sub(t260, t274, t262 * t272);
+        let t1368 = mul_sub(t264, t272, t260 * t276);
+        let t1369 = mul_add(t282, t1367, mul_add(t278, t1363, t280 * t1368));
+        let t1370 = mul_sub(t248, t262, t250 * t260);
+        let t1371 = mul_sub(t252, t260, t248 * t264);
+        let t1372 = mul_add(t282, t1370, mul_add(t278, t1362, t280 * t1371));
+        let t1373 = mul_sub(t250, t272, t248 * t274);
+        let t1374 = mul_sub(t248, t276, t252 * t272);
+        let t1375 = mul_add(t282, t1373, mul_add(t278, t1364, t280 * t1374));
+        let t1376 = neg_mul_add(t289, t1375, mul_sub(t298, t1365, t283 * t1369));
+        let t1377 = neg_mul_add(t295, t1372, t1376);
+        let t1378 = mul_add(t258, t1370, mul_add(t254, t1362, t256 * t1371));
+        let t1379 = mul_add(t258, t1373, mul_add(t254, t1364, t256 * t1374));
+        let t1380 = mul_add(t258, t1367, mul_add(t254, t1363, t256 * t1368));
+        let t1381 = neg_mul_add(t290, t1379, mul_sub(t287, t1365, t284 * t1380));
+        let t1382 = neg_mul_add(t296, t1378, t1381);
+        let t1383 = mul_add(t270, t1370, mul_add(t266, t1362, t268 * t1371));
+        let t1384 = mul_add(t270, t1373, mul_add(t266, t1364, t268 * t1374));
+        let t1385 = mul_add(t270, t1367, mul_add(t266, t1363, t268 * t1368));
+        let t1386 = neg_mul_add(t291, t1384, mul_sub(t294, t1365, t285 * t1385));
+        let t1387 = neg_mul_add(t297, t1383, t1386);
+        let t1388 = neg_mul_add(t290, t1384, mul_sub(t293, t1365, t284 * t1385));
+        let t1389 = neg_mul_add(t296, t1383, t1388);
+        let t1390 = neg_mul_add(t291, t1379, mul_sub(t288, t1365, t285 * t1380));
+        let t1391 = neg_mul_add(t297, t1378, t1390);
+        let t1392 = mul_sub(t1382, t1387, t1389 * t1391);
+        let t1393 = neg_mul_add(t289, t1379, mul_sub(t286, t1365, t283 * t1380));
+        let t1394 = neg_mul_add(t295, t1378, t1393);
+        let t1395 = neg_mul_add(t291, t1375, mul_sub(t300, t1365, t285 * t1369));
+        let t1396 = neg_mul_add(t297, t1372, t1395);
+        let t1397 = neg_mul_add(t290, t1375, mul_sub(t299, t1365, t284 * t1369));
+        let t1398 = neg_mul_add(t296, t1372, t1397);
+        let t1399 = mul_sub(t1389, t1396, t1398 * t1387);
+        let t1400 = neg_mul_add(t289, t1384, mul_sub(t292, t1365, t283 * t1385));
+        let t1401 = neg_mul_add(t295, t1383, t1400);
+        let t1402 = mul_sub(t1398, t1391, t1382 * t1396);
+        let t1403 = c(1.0) / mul_add(t1377, t1392, mul_add(t1394, t1399, t1401 * t1402));
+        let t1404 = mul_add(t1327, t1370, mul_add(t1315, t1362, t1321 * t1371));
+        let t1405 = mul_add(t1327, t1373, mul_add(t1315, t1364, t1321 * t1374));
+        let t1406 = mul_add(t1327, t1367, mul_add(t1315, t1363, t1321 * t1368));
+        let t1407 = neg_mul_add(t291, t1405, mul_sub(t1360, t1365, t285 * t1406));
+        let t1408 = neg_mul_add(t297, t1404, t1407);
+        let t1409 = neg_mul_add(t289, t1405, mul_sub(t1341, t1365, t283 * t1406));
+        let t1410 = neg_mul_add(t295, t1404, t1409);
+        let t1411 = neg_mul_add(t290, t1405, mul_sub(t1352, t1365, t284 * t1406));
+        let t1412 = neg_mul_add(t296, t1404, t1411);
+        let t1413 = mul_add(t1410, t1392, t1412 * mul_sub(t1401, t1391, t1394 * t1387));
+        let t1414 = t1403 * mul_add(t1408, mul_sub(t1394, t1389, t1401 * t1382), t1413);
+        let t1415 = mul_add(t1410, t1402, t1412 * mul_sub(t1394, t1396, t1377 * t1391));
+        let t1416 = t1403 * mul_add(t1408, mul_sub(t1377, t1382, t1394 * t1398), t1415);
+        let t1417 = mul_add(t1410, t1399, t1412 * mul_sub(t1377, t1387, t1401 * t1396));
+        let t1418 = t1403 * mul_add(t1408, mul_sub(t1401, t1398, t1377 * t1389), t1417);
+        let t1419 = neg_mul_add(t1385, t1416, neg_mul_add(t1380, t1418, t1406));
+        let t1420 = t1366 * mul_sub(t1369, t1414, t1419);
+        let t1421 = -t1418;
+        let t1422 = neg_mul_add(t1384, t1416, neg_mul_add(t1379, t1418, t1405));
+        let t1423 = t1366 * mul_sub(t1375, t1414, t1422);
+        let t1424 = -t1416;
+        let t1425 = neg_mul_add(t1383, t1416, neg_mul_add(t1378, t1418, t1404));
+        let t1426 = t1366 * mul_sub(t1372, t1414, t1425);
+        let t1427 = -t1414;
+        let axial_reaction = solve_after_attempt(
+            &[t1420, t1421, t1423, t1424, t1426, t1427],
             &[
                 [t248, t254, t260, t266, t272, t278],
                 [t250, t256, t262, t268, t274, t280],
@@ -24771,7 +24930,7 @@ pub fn control<T: Scalar>(
                 [t284, t287, t290, t293, t296, t299],
                 [t285, t288, t291, t294, t297, t300],
             ],
-            &[t1316, t1322, t1328, t1341, t1351, t1358],
+            &[t1316, t1322, t1328, t1342, t1353, t1361],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -26057,103 +26216,179 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1063 = mul_sub(t87, t954, t90 * t953);
         // inertia force less weight, without the actuators' own shares
         let t1064 = mul_add(t269, t534, mul_add(t255, t526, t262 * t530));
-        let t1065 = mul_add(t269, t543, mul_add(t255, t537, t262 * t540));
-        let t1066 = mul_add(t269, t549, mul_add(t255, t545, t262 * t547));
+        let t1065 = mul_sub(t216, t681, mul_add(t248, t509, t1064));
+        let t1066 = mul_add(t228, t801, mul_add(t222, t741, t1065));
+        let t1067 = mul_add(t240, t921, mul_add(t234, t861, t1066));
+        let t1068 = mul_add(t246, t981, t1067);
+        let t1069 = mul_add(t269, t543, mul_add(t255, t537, t262 * t540));
+        let t1070 = mul_sub(t216, t688, mul_add(t248, t511, t1069));
+        let t1071 = mul_add(t228, t808, mul_add(t222, t748, t1070));
+        let t1072 = mul_add(t240, t928, mul_add(t234, t868, t1071));
+        let t1073 = mul_add(t246, t988, t1072);
+        let t1074 = mul_add(t269, t549, mul_add(t255, t545, t262 * t547));
+        let t1075 = mul_sub(t216, t695, mul_add(t248, t513, t1074));
+        let t1076 = mul_add(t228, t815, mul_add(t222, t755, t1075));
+        let t1077 = mul_add(t240, t935, mul_add(t234, t875, t1076));
+        let t1078 = mul_add(t246, t995, t1077);
         // first moments by platform coordinate of the payload's inertia force
-        let t1067 = mul_add(t306, t534, mul_add(t284, t526, t295 * t530));
-        let t1068 = mul_add(t329, t534, mul_add(t295, t526, t318 * t530));
-        let t1069 = mul_add(t341, t534, mul_add(t306, t526, t329 * t530));
-        let t1070 = mul_add(t306, t543, mul_add(t284, t537, t295 * t540));
-        let t1071 = mul_add(t329, t543, mul_add(t295, t537, t318 * t540));
-        let t1072 = mul_add(t341, t543, mul_add(t306, t537, t329 * t540));
-        let t1073 = mul_add(t306, t549, mul_add(t284, t545, t295 * t547));
-        let t1074 = mul_add(t329, t549, mul_add(t295, t545, t318 * t547));
-        let t1075 = mul_add(t341, t549, mul_add(t306, t545, t329 * t547));
+        let t1079 = mul_add(t306, t534, mul_add(t284, t526, t295 * t530));
+        let t1080 = mul_add(t329, t534, mul_add(t295, t526, t318 * t530));
+        let t1081 = mul_add(t341, t534, mul_add(t306, t526, t329 * t530));
+        let t1082 = mul_add(t306, t543, mul_add(t284, t537, t295 * t540));
+        let t1083 = mul_add(t329, t543, mul_add(t295, t537, t318 * t540));
+        let t1084 = mul_add(t341, t543, mul_add(t306, t537, t329 * t540));
+        let t1085 = mul_add(t306, t549, mul_add(t284, t545, t295 * t547));
+        let t1086 = mul_add(t329, t549, mul_add(t295, t545, t318 * t547));
+        let t1087 = mul_add(t341, t549, mul_add(t306, t545, t329 * t547));
         // moment of the legs' inertia at their joints about the platform origin
-        let t1076 = neg_mul_add(t81, t894, mul_add(t78, t895, t1061));
-        let t1077 = t1058 + (t1052 + t1055) + t1076;
-        let t1078 = neg_mul_add(t75, t895, mul_add(t81, t893, t1062));
-        let t1079 = t1059 + (t1053 + t1056) + t1078;
-        let t1080 = neg_mul_add(t78, t893, mul_add(t75, t894, t1063));
-        let t1081 = t1060 + (t1054 + t1057) + t1080;
+        let t1088 = neg_mul_add(t81, t894, mul_add(t78, t895, t1061));
+        let t1089 = t1058 + (t1052 + t1055) + t1088;
+        let t1090 = neg_mul_add(t75, t895, mul_add(t81, t893, t1062));
+        let t1091 = t1059 + (t1053 + t1056) + t1090;
+        let t1092 = neg_mul_add(t78, t893, mul_add(t75, t894, t1063));
+        let t1093 = t1060 + (t1054 + t1057) + t1092;
         // inertia less external wrench that the actuators must balance
-        let t1082 = mul_add(t269, t642, mul_add(t255, t640, t262 * t641));
-        let t1083 = neg_mul_add(t216, t681, t1064 + mul_sub(t248, t509, t1082));
-        let t1084 = neg_mul_add(t228, t801, neg_mul_add(t222, t741, t1083));
-        let t1085 = neg_mul_add(t240, t921, neg_mul_add(t234, t861, t1084));
-        let t1086 = base_rotation[1][0] * external_wrench[1];
-        let t1087 = mul_add(base_rotation[0][0], external_wrench[0], t1086);
-        let t1088 = mul_add(base_rotation[2][0], external_wrench[2], t1087);
-        let t1089 = neg_mul_add(t246, t981, t1085) - t1088;
-        let t1090 = mul_add(t269, t649, mul_add(t255, t647, t262 * t648));
-        let t1091 = neg_mul_add(t216, t688, t1065 + mul_sub(t248, t511, t1090));
-        let t1092 = neg_mul_add(t228, t808, neg_mul_add(t222, t748, t1091));
-        let t1093 = neg_mul_add(t240, t928, neg_mul_add(t234, t868, t1092));
-        let t1094 = base_rotation[1][1] * external_wrench[1];
-        let t1095 = mul_add(base_rotation[0][1], external_wrench[0], t1094);
-        let t1096 = mul_add(base_rotation[2][1], external_wrench[2], t1095);
-        let t1097 = neg_mul_add(t246, t988, t1093) - t1096;
-        let t1098 = mul_add(t269, t655, mul_add(t255, t653, t262 * t654));
-        let t1099 = neg_mul_add(t216, t695, t1066 + mul_sub(t248, t513, t1098));
-        let t1100 = neg_mul_add(t228, t815, neg_mul_add(t222, t755, t1099));
-        let t1101 = neg_mul_add(t240, t935, neg_mul_add(t234, t875, t1100));
-        let t1102 = base_rotation[1][2] * external_wrench[1];
-        let t1103 = mul_add(base_rotation[0][2], external_wrench[0], t1102);
-        let t1104 = mul_add(base_rotation[2][2], external_wrench[2], t1103);
-        let t1105 = neg_mul_add(t246, t995, t1101) - t1104;
-        let t1106 = mul_add(t306, t655, mul_add(t284, t653, t295 * t654));
-        let t1107 = mul_add(t255, t513, t1106) - t1073;
-        let t1108 = neg_mul_add(parameters.payload_com[0], t1104, t1107);
-        let t1109 = mul_add(t306, t649, mul_add(t284, t647, t295 * t648));
-        let t1110 = mul_add(t255, t511, t1109) - t1070;
-        let t1111 = neg_mul_add(parameters.payload_com[0], t1096, t1110);
-        let t1112 = mul_add(t329, t655, mul_add(t295, t653, t318 * t654));
-        let t1113 = mul_add(t262, t513, t1112) - t1074;
-        let t1114 = neg_mul_add(parameters.payload_com[1], t1104, t1113);
-        let t1115 = mul_add(t329, t649, mul_add(t295, t647, t318 * t648));
-        let t1116 = mul_add(t262, t511, t1115) - t1071;
-        let t1117 = neg_mul_add(parameters.payload_com[1], t1096, t1116);
-        let t1118 = mul_sub(t15, t1114, t24 * t1117);
-        let t1119 = mul_sub(t12, t1108, t21 * t1111) + t1118;
-        let t1120 = mul_add(t341, t655, mul_add(t306, t653, t329 * t654));
-        let t1121 = mul_add(t269, t513, t1120) - t1075;
-        let t1122 = neg_mul_add(parameters.payload_com[2], t1104, t1121);
-        let t1123 = mul_add(t341, t649, mul_add(t306, t647, t329 * t648));
-        let t1124 = mul_add(t269, t511, t1123) - t1072;
-        let t1125 = neg_mul_add(parameters.payload_com[2], t1096, t1124);
-        let t1126 = t1119 + mul_sub(t18, t1122, t27 * t1125);
-        let t1127 = mul_add(t105, t1014, neg_mul_add(t102, t1015, t1126)) - t1077;
-        let t1128 = neg_mul_add(t272, mul_sub(t356, t636, t651), t1127);
-        let t1129 = base_rotation[1][0] * external_wrench[4];
-        let t1130 = mul_add(base_rotation[0][0], external_wrench[3], t1129);
-        let t1131 = t1128 - mul_add(base_rotation[2][0], external_wrench[5], t1130);
-        let t1132 = base_rotation[1][1] * external_wrench[4];
-        let t1133 = mul_add(base_rotation[0][1], external_wrench[3], t1132);
-        let t1134 = mul_add(base_rotation[2][1], external_wrench[5], t1133);
-        let t1135 = mul_sub(t272, mul_sub(t353, t636, t650), t1134);
-        let t1136 = mul_add(t306, t642, mul_add(t284, t640, t295 * t641));
-        let t1137 = mul_add(t255, t509, t1136) - t1067;
-        let t1138 = neg_mul_add(parameters.payload_com[0], t1088, t1137);
-        let t1139 = mul_add(t329, t642, mul_add(t295, t640, t318 * t641));
-        let t1140 = mul_add(t262, t509, t1139) - t1068;
-        let t1141 = neg_mul_add(parameters.payload_com[1], t1088, t1140);
-        let t1142 = mul_sub(t24, t1141, t6 * t1114);
-        let t1143 = mul_sub(t21, t1138, t3 * t1108) + t1142;
-        let t1144 = mul_add(t341, t642, mul_add(t306, t640, t329 * t641));
-        let t1145 = mul_add(t269, t509, t1144) - t1069;
-        let t1146 = neg_mul_add(parameters.payload_com[2], t1088, t1145);
-        let t1147 = mul_sub(t105, t1013, t1143 + mul_sub(t27, t1146, t9 * t1122));
-        let t1148 = t1135 - (t1079 + neg_mul_add(t99, t1015, t1147));
-        let t1149 = mul_sub(t6, t1117, t15 * t1141);
-        let t1150 = mul_sub(t3, t1111, t12 * t1138) + t1149;
-        let t1151 = t1150 + mul_sub(t9, t1125, t18 * t1146);
-        let t1152 = mul_add(t102, t1013, neg_mul_add(t99, t1014, t1151)) - t1081;
-        let t1153 = neg_mul_add(t272, mul_sub(t353, t634, t643), t1152);
-        let t1154 = base_rotation[1][2] * external_wrench[4];
-        let t1155 = mul_add(base_rotation[0][2], external_wrench[3], t1154);
-        let t1156 = t1153 - mul_add(base_rotation[2][2], external_wrench[5], t1155);
+        let t1094 = base_rotation[1][0] * external_wrench[1];
+        let t1095 = mul_add(base_rotation[0][0], external_wrench[0], t1094);
+        let t1096 = mul_add(base_rotation[2][0], external_wrench[2], t1095);
+        let t1097 = mul_add(t255, t640, t262 * t641) + mul_add(t269, t642, t1096);
+        let t1098 = t1068 + t1097;
+        let t1099 = -t1098;
+        let t1100 = base_rotation[1][1] * external_wrench[1];
+        let t1101 = mul_add(base_rotation[0][1], external_wrench[0], t1100);
+        let t1102 = mul_add(base_rotation[2][1], external_wrench[2], t1101);
+        let t1103 = mul_add(t255, t647, t262 * t648) + mul_add(t269, t649, t1102);
+        let t1104 = t1073 + t1103;
+        let t1105 = -t1104;
+        let t1106 = base_rotation[1][2] * external_wrench[1];
+        let t1107 = mul_add(base_rotation[0][2], external_wrench[0], t1106);
+        let t1108 = mul_add(base_rotation[2][2], external_wrench[2], t1107);
+        let t1109 = mul_add(t255, t653, t262 * t654) + mul_add(t269, t655, t1108);
+        let t1110 = t1078 + t1109;
+        let t1111 = -t1110;
+        let t1112 = mul_add(t306, t655, mul_add(t284, t653, t295 * t654));
+        let t1113 = mul_add(t255, t513, t1112) - t1085;
+        let t1114 = neg_mul_add(parameters.payload_com[0], t1108, t1113);
+        let t1115 = mul_add(t306, t649, mul_add(t284, t647, t295 * t648));
+        let t1116 = mul_add(t255, t511, t1115) - t1082;
+        let t1117 = neg_mul_add(parameters.payload_com[0], t1102, t1116);
+        let t1118 = mul_add(t329, t655, mul_add(t295, t653, t318 * t654));
+        let t1119 = mul_add(t262, t513, t1118) - t1086;
+        let t1120 = neg_mul_add(parameters.payload_com[1], t1108, t1119);
+        let t1121 = mul_add(t329, t649, mul_add(t295, t647, t318 * t648));
+        let t1122 = mul_add(t262, t511, t1121) - t1083;
+        let t1123 = neg_mul_add(parameters.payload_com[1], t1102, t1122);
+        let t1124 = mul_sub(t15, t1120, t24 * t1123);
+        let t1125 = mul_sub(t12, t1114, t21 * t1117) + t1124;
+        let t1126 = mul_add(t341, t655, mul_add(t306, t653, t329 * t654));
+        let t1127 = mul_add(t269, t513, t1126) - t1087;
+        let t1128 = neg_mul_add(parameters.payload_com[2], t1108, t1127);
+        let t1129 = mul_add(t341, t649, mul_add(t306, t647, t329 * t648));
+        let t1130 = mul_add(t269, t511, t1129) - t1084;
+        let t1131 = neg_mul_add(parameters.payload_com[2], t1102, t1130);
+        let t1132 = mul_sub(t102, t1015, t1125 + mul_sub(t18, t1128, t27 * t1131));
+        let t1133 = base_rotation[1][0] * external_wrench[4];
+        let t1134 = mul_add(base_rotation[0][0], external_wrench[3], t1133);
+        let t1135 = mul_add(base_rotation[2][0], external_wrench[5], t1134);
+        let t1136 = mul_add(t272, mul_sub(t356, t636, t651), t1135);
+        let t1137 = t1089 + neg_mul_add(t105, t1014, t1132) + t1136;
+        let t1138 = -t1137;
+        let t1139 = mul_add(t306, t642, mul_add(t284, t640, t295 * t641));
+        let t1140 = mul_add(t255, t509, t1139) - t1079;
+        let t1141 = neg_mul_add(parameters.payload_com[0], t1096, t1140);
+        let t1142 = mul_add(t329, t642, mul_add(t295, t640, t318 * t641));
+        let t1143 = mul_add(t262, t509, t1142) - t1080;
+        let t1144 = neg_mul_add(parameters.payload_com[1], t1096, t1143);
+        let t1145 = mul_sub(t24, t1144, t6 * t1120);
+        let t1146 = mul_sub(t21, t1141, t3 * t1114) + t1145;
+        let t1147 = mul_add(t341, t642, mul_add(t306, t640, t329 * t641));
+        let t1148 = mul_add(t269, t509, t1147) - t1081;
+        let t1149 = neg_mul_add(parameters.payload_com[2], t1096, t1148);
+        let t1150 = mul_sub(t105, t1013, t1146 + mul_sub(t27, t1149, t9 * t1128));
+        let t1151 = base_rotation[1][1] * external_wrench[4];
+        let t1152 = mul_add(base_rotation[0][1], external_wrench[3], t1151);
+        let t1153 = mul_add(base_rotation[2][1], external_wrench[5], t1152);
+        let t1154 = neg_mul_add(t272, mul_sub(t353, t636, t650), t1153);
+        let t1155 = t1091 + neg_mul_add(t99, t1015, t1150) + t1154;
+        let t1156 = -t1155;
+        let t1157 = mul_sub(t6, t1123, t15 * t1144);
+        let t1158 = mul_sub(t3, t1117, t12 * t1141) + t1157;
+        let t1159 = mul_sub(t99, t1014, t1158 + mul_sub(t9, t1131, t18 * t1149));
+        let t1160 = base_rotation[1][2] * external_wrench[4];
+        let t1161 = mul_add(base_rotation[0][2], external_wrench[3], t1160);
+        let t1162 = mul_add(base_rotation[2][2], external_wrench[5], t1161);
+        let t1163 = mul_add(t272, mul_sub(t353, t634, t643), t1162);
+        let t1164 = t1093 + neg_mul_add(t102, t1013, t1159) + t1163;
+        let t1165 = -t1164;
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1166 = mul_sub(t178, t192, t180 * t190);
+        let t1167 = mul_sub(t190, t204, t192 * t202);
+        let t1168 = mul_sub(t180, t202, t178 * t204);
+        let t1169 = mul_add(t200, t1166, mul_add(t176, t1167, t188 * t1168));
+        let t1170 = c(1.0) / t1169;
+        let t1171 = mul_sub(t188, t202, t190 * t200);
+        let t1172 = mul_sub(t192, t200, t188 * t204);
+        let t1173 = mul_add(t210, t1171, mul_add(t206, t1167, t208 * t1172));
+        let t1174 = mul_sub(t176, t190, t178 * t188);
+        let t1175 = mul_sub(t180, t188, t176 * t192);
+        let t1176 = mul_add(t210, t1174, mul_add(t206, t1166, t208 * t1175));
+        let t1177 = mul_sub(t178, t200, t176 * t202);
+        let t1178 = mul_sub(t176, t204, t180 * t200);
+        let t1179 = mul_add(t210, t1177, mul_add(t206, t1168, t208 * t1178));
+        let t1180 = neg_mul_add(t1040, t1179, mul_sub(t1049, t1169, t1034 * t1173));
+        let t1181 = neg_mul_add(t1046, t1176, t1180);
+        let t1182 = mul_add(t186, t1174, mul_add(t182, t1166, t184 * t1175));
+        let t1183 = mul_add(t186, t1177, mul_add(t182, t1168, t184 * t1178));
+        let t1184 = mul_add(t186, t1171, mul_add(t182, t1167, t184 * t1172));
+        let t1185 = neg_mul_add(t1041, t1183, mul_sub(t1038, t1169, t1035 * t1184));
+        let t1186 = neg_mul_add(t1047, t1182, t1185);
+        let t1187 = mul_add(t198, t1174, mul_add(t194, t1166, t196 * t1175));
+        let t1188 = mul_add(t198, t1177, mul_add(t194, t1168, t196 * t1178));
+        let t1189 = mul_add(t198, t1171, mul_add(t194, t1167, t196 * t1172));
+        let t1190 = neg_mul_add(t1042, t1188, mul_sub(t1045, t1169, t1036 * t1189));
+        let t1191 = neg_mul_add(t1048, t1187, t1190);
+        let t1192 = neg_mul_add(t1041, t1188, mul_sub(t1044, t1169, t1035 * t1189));
+        let t1193 = neg_mul_add(t1047, t1187, t1192);
+        let t1194 = neg_mul_add(t1042, t1183, mul_sub(t1039, t1169, t1036 * t1184));
+        let t1195 = neg_mul_add(t1048, t1182, t1194);
+        let t1196 = mul_sub(t1186, t1191, t1193 * t1195);
+        let t1197 = neg_mul_add(t1040, t1183, mul_sub(t1037, t1169, t1034 * t1184));
+        let t1198 = neg_mul_add(t1046, t1182, t1197);
+        let t1199 = neg_mul_add(t1042, t1179, mul_sub(t1051, t1169, t1036 * t1173));
+        let t1200 = neg_mul_add(t1048, t1176, t1199);
+        let t1201 = neg_mul_add(t1041, t1179, mul_sub(t1050, t1169, t1035 * t1173));
+        let t1202 = neg_mul_add(t1047, t1176, t1201);
+        let t1203 = mul_sub(t1193, t1200, t1202 * t1191);
+        let t1204 = neg_mul_add(t1040, t1188, mul_sub(t1043, t1169, t1034 * t1189));
+        let t1205 = neg_mul_add(t1046, t1187, t1204);
+        let t1206 = mul_sub(t1202, t1195, t1186 * t1200);
+        let t1207 = c(1.0) / mul_add(t1181, t1196, mul_add(t1198, t1203, t1205 * t1206));
+        let t1208 = mul_add(t1110, t1174, mul_add(t1098, t1166, t1104 * t1175));
+        let t1209 = mul_add(t1110, t1177, mul_add(t1098, t1168, t1104 * t1178));
+        let t1210 = mul_add(t1110, t1171, mul_add(t1098, t1167, t1104 * t1172));
+        let t1211 = neg_mul_add(t1042, t1209, mul_sub(t1164, t1169, t1036 * t1210));
+        let t1212 = neg_mul_add(t1048, t1208, t1211);
+        let t1213 = neg_mul_add(t1040, t1209, mul_sub(t1137, t1169, t1034 * t1210));
+        let t1214 = neg_mul_add(t1046, t1208, t1213);
+        let t1215 = neg_mul_add(t1041, t1209, mul_sub(t1155, t1169, t1035 * t1210));
+        let t1216 = neg_mul_add(t1047, t1208, t1215);
+        let t1217 = mul_add(t1214, t1196, t1216 * mul_sub(t1205, t1195, t1198 * t1191));
+        let t1218 = t1207 * mul_add(t1212, mul_sub(t1198, t1193, t1205 * t1186), t1217);
+        let t1219 = mul_add(t1214, t1206, t1216 * mul_sub(t1198, t1200, t1181 * t1195));
+        let t1220 = t1207 * mul_add(t1212, mul_sub(t1181, t1186, t1198 * t1202), t1219);
+        let t1221 = mul_add(t1214, t1203, t1216 * mul_sub(t1181, t1191, t1205 * t1200));
+        let t1222 = t1207 * mul_add(t1212, mul_sub(t1205, t1202, t1181 * t1193), t1221);
+        let t1223 = neg_mul_add(t1189, t1220, neg_mul_add(t1184, t1222, t1210));
+        let t1224 = t1170 * mul_sub(t1173, t1218, t1223);
+        let t1225 = -t1222;
+        let t1226 = neg_mul_add(t1188, t1220, neg_mul_add(t1183, t1222, t1209));
+        let t1227 = t1170 * mul_sub(t1179, t1218, t1226);
+        let t1228 = -t1220;
+        let t1229 = neg_mul_add(t1187, t1220, neg_mul_add(t1182, t1222, t1208));
+        let t1230 = t1170 * mul_sub(t1176, t1218, t1229);
+        let t1231 = -t1218;
+        let axial_reaction = solve_after_attempt(
+            &[t1224, t1225, t1227, t1228, t1230, t1231],
             &[
                 [t176, t182, t188, t194, t200, t206],
                 [t178, t184, t190, t196, t202, t208],
@@ -26162,32 +26397,32 @@ pub fn passive_inverse_dynamics<T: Scalar>(
                 [t1035, t1038, t1041, t1044, t1047, t1050],
                 [t1036, t1039, t1042, t1045, t1048, t1051],
             ],
-            &[t1089, t1097, t1105, t1131, t1148, t1156],
+            &[t1099, t1105, t1111, t1138, t1156, t1165],
         );
         // leg 1: actuator forces F at reference speeds
-        let t1157 = mul_add(t213, t698, mul_sub(t216, t710, t1018));
+        let t1232 = mul_add(t213, t698, mul_sub(t216, t710, t1018));
         passive_inverse_dynamics[0] =
-            axial_reaction[0] + mul_add(parameters.mover_mass[0], t712, t1157);
+            axial_reaction[0] + mul_add(parameters.mover_mass[0], t712, t1232);
         // leg 2: actuator forces F at reference speeds
-        let t1158 = mul_add(t219, t758, mul_sub(t222, t770, t1021));
+        let t1233 = mul_add(t219, t758, mul_sub(t222, t770, t1021));
         passive_inverse_dynamics[1] =
-            axial_reaction[1] + mul_add(parameters.mover_mass[1], t772, t1158);
+            axial_reaction[1] + mul_add(parameters.mover_mass[1], t772, t1233);
         // leg 3: actuator forces F at reference speeds
-        let t1159 = mul_add(t225, t818, mul_sub(t228, t830, t1024));
+        let t1234 = mul_add(t225, t818, mul_sub(t228, t830, t1024));
         passive_inverse_dynamics[2] =
-            axial_reaction[2] + mul_add(parameters.mover_mass[2], t832, t1159);
+            axial_reaction[2] + mul_add(parameters.mover_mass[2], t832, t1234);
         // leg 4: actuator forces F at reference speeds
-        let t1160 = mul_add(t231, t878, mul_sub(t234, t890, t1027));
+        let t1235 = mul_add(t231, t878, mul_sub(t234, t890, t1027));
         passive_inverse_dynamics[3] =
-            axial_reaction[3] + mul_add(parameters.mover_mass[3], t892, t1160);
+            axial_reaction[3] + mul_add(parameters.mover_mass[3], t892, t1235);
         // leg 5: actuator forces F at reference speeds
-        let t1161 = mul_add(t237, t938, mul_sub(t240, t950, t1030));
+        let t1236 = mul_add(t237, t938, mul_sub(t240, t950, t1030));
         passive_inverse_dynamics[4] =
-            axial_reaction[4] + mul_add(parameters.mover_mass[4], t952, t1161);
+            axial_reaction[4] + mul_add(parameters.mover_mass[4], t952, t1236);
         // leg 6: actuator forces F at reference speeds
-        let t1162 = mul_add(t243, t998, mul_sub(t246, t1010, t1033));
+        let t1237 = mul_add(t243, t998, mul_sub(t246, t1010, t1033));
         passive_inverse_dynamics[5] =
-            axial_reaction[5] + mul_add(parameters.mover_mass[5], t1012, t1162);
+            axial_reaction[5] + mul_add(parameters.mover_mass[5], t1012, t1237);
     }
 }
 
@@ -32243,16 +32478,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -32262,94 +32497,94 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
     let t27 = t9 * P::splat(P::lane(t14, 2));
     let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t29 = t18 * P::splat(P::lane(t14, 0));
     let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
     let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
     let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
     let t35 = t18 * P::splat(P::lane(t14, 2));
     let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
     // constant and copied elements
     let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
     let t39 =
-        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[2][1], parameters.actuator_axis[4][1]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
     let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
     let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
     // constant and copied elements
     let t44 =
-        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[2][0], parameters.actuator_axis[4][0]]);
     let t45 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     let t46 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
     // constant and copied elements
     let t50 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
     let t51 =
-        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[2][2], parameters.actuator_axis[4][2]]);
     let t52 =
-        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
-    // legs 4, 5, 6: platform joint from the base point
+        P::triple([parameters.actuator_axis[1][1], parameters.actuator_axis[3][1], parameters.actuator_axis[5][1]]);
+    // legs 2, 4, 6: platform joint from the base point
     let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
     // constant and copied elements
     let t54 =
-        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+        P::triple([parameters.actuator_axis[1][0], parameters.actuator_axis[3][0], parameters.actuator_axis[5][0]]);
     let t55 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
     let t56 =
-        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        P::triple([parameters.actuator_axis[1][2], parameters.actuator_axis[3][2], parameters.actuator_axis[5][2]]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
     // constant and copied elements
     let t59 =
-        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+        P::triple([parameters.rod_length[0], parameters.rod_length[2], parameters.rod_length[4]]);
     // angular velocity of the base
     let t60 = t1 * P::splat(base_velocity[4]);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t61 = t59 * t59;
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t62 = neg_mul_add(t39, t57, t43);
     let t63 = neg_mul_add(t44, t57, t42);
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
     let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t65 = neg_mul_add(t51, t57, t49);
     // angular velocity of the base
     let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
@@ -32357,16 +32592,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // constant and copied elements
     let t68 =
-        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+        P::triple([parameters.rod_length[1], parameters.rod_length[3], parameters.rod_length[5]]);
     // angular velocity of the platform
     let t69 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t70 = t68 * t68;
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
     let t71 = neg_mul_add(t52, t64, t48);
     let t72 = neg_mul_add(t54, t64, t53);
     let t73 = neg_mul_add(t56, t64, t58);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t74 = mul_add(t63, t63, t62 * t62);
     // angular velocity of the base
     let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
@@ -32374,16 +32609,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
     // constant and copied elements
     let t77 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+        P::triple([parameters.rod_inertia[1], parameters.rod_inertia[3], parameters.rod_inertia[5]]);
     // angular velocity of the platform
     let t78 = mul_add(t2, P::splat(platform_velocity[3]), t69);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t79 = mul_add(t72, t72, t71 * t71);
     // angular acceleration of the base
     let t80 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
     let t81 = t77 / t70;
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t82 = sqrt(neg_mul_add(t65, t65, t61) - t74);
     // velocity of the platform origin relative to the base
     let t83 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
@@ -32391,10 +32626,10 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t84 = t1 * P::splat(platform_acceleration[4]);
     // constant and copied elements
     let t85 =
-        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[2], parameters.rod_inertia[4]]);
     // angular acceleration of the base
     let t86 = mul_add(t2, P::splat(base_acceleration[3]), t80);
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
     let t87 = t85 / t61;
     // angular velocity of the platform
     let t88 = mul_add(t5, P::splat(platform_velocity[5]), t78);
@@ -32404,7 +32639,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t90 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
     // angular acceleration of the platform
     let t91 = mul_add(t2, P::splat(platform_acceleration[3]), t84);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t92 = sqrt(neg_mul_add(t73, t73, t70) - t79);
     // angular acceleration of the base
     let t93 = mul_add(t5, P::splat(base_acceleration[5]), t86);
@@ -32425,16 +32660,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t101 = mul_add(t5, P::splat(platform_acceleration[5]), t91);
     // constant and copied elements
     let t102 =
-        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t103 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+        P::triple([parameters.rod_com_fraction[1], parameters.rod_com_fraction[3], parameters.rod_com_fraction[5]]);
+    let t103 = P::triple([parameters.rod_mass[1], parameters.rod_mass[3], parameters.rod_mass[5]]);
     // angular velocity of the base
     let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
-    // legs 4, 5, 6: leg mass that moves with the platform joint
+    // legs 2, 4, 6: leg mass that moves with the platform joint
     let t105 = t102 * t103;
     // constant and copied elements
     let t106 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t107 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[2], parameters.rod_com_fraction[4]]);
+    let t107 = P::triple([parameters.rod_mass[0], parameters.rod_mass[2], parameters.rod_mass[4]]);
     // acceleration of the base origin less gravity
     let t108 = base_acceleration[0] - parameters.gravity[0];
     let t109 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
@@ -32443,9 +32678,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // acceleration of the platform origin less gravity
     let t111 = parameters.gravity[0] - platform_acceleration[0];
     let t112 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
+    // legs 1, 3, 5: leg mass that moves with the platform joint
     let t113 = t106 * t107;
-    // legs 4, 5, 6: leg mass that moves with the platform joint
+    // legs 2, 4, 6: leg mass that moves with the platform joint
     let t114 = mul_add(t102, t105, t81);
     // acceleration per base coordinate of points that move with the base
     let t115 = mul_add(t110, t110, t104 * t104);
@@ -32459,9 +32694,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t119 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
     // acceleration per base coordinate of points that move with the base
     let t120 = t116 + t117;
-    // legs 1, 2, 3: leg mass that moves with the platform joint
+    // legs 1, 3, 5: leg mass that moves with the platform joint
     let t121 = mul_add(t106, t113, t87);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t122 = neg_mul_add(t32, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
     // acceleration of the base origin less gravity
     let t123 = base_acceleration[2] - parameters.gravity[2];
@@ -32475,9 +32710,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t127 = t90 + t126;
     // angular velocity of the platform relative to the base
     let t128 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
-    // legs 1, 2, 3: reciprocal of that extent
+    // legs 1, 3, 5: reciprocal of that extent
     let t129 = w(1.0) / t82;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t130 = neg_mul_add(t37, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
     // acceleration of the base origin less gravity
     let t131 = mul_add(t5, P::splat(t123), mul_add(t2, P::splat(t108), t109));
@@ -32489,15 +32724,15 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t134 = mul_add(t121, t12 * t12, t114 * (t19 * t19));
     let t135 = mul_add(t121, t9 * t12, t114 * (t18 * t19));
     let t136 = mul_add(t121, t12 * t13, t114 * (t19 * t20));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t137 = mul_add(t37, P::splat(P::lane(t96, 0)), t122);
     // acceleration per base coordinate of points that move with the base
     let t138 = P::triple([P::lane(t124, 0), -P::lane(t115, 1), P::lane(t120, 2)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t139 = mul_add(t33, P::splat(P::lane(t96, 2)), t130);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t140 = neg_mul_add(t40, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t141 = neg_mul_add(t33, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
     // acceleration of the platform origin relative to the base, less w x v
     let t142 = P::splat(P::lane(t22, 1)) * t138;
@@ -32508,17 +32743,17 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t145 = P::triple([P::lane(t100, 1), P::lane(t100, 2), P::lane(t100, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
     let t146 = P::triple([P::lane(t127, 1), P::lane(t127, 2), P::lane(t127, 0)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t147 = t37 * P::splat(P::lane(t133, 0));
-    // legs 4, 5, 6: reciprocal of that extent
+    // legs 2, 4, 6: reciprocal of that extent
     let t148 = w(1.0) / t92;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t149 = neg_mul_add(t47, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
     // acceleration of the platform origin relative to the base, less w x v
     let t150 = mul_add(P::splat(P::lane(t22, 2)), t144, t131 + t132);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t151 = mul_add(t47, P::splat(P::lane(t96, 0)), t140);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t152 = mul_add(t32, P::splat(P::lane(t96, 1)), t141);
     // second moment of payload and platform-side leg ends
     let t153 = mul_add(t121, t9 * t9, t114 * (t18 * t18));
@@ -32527,160 +32762,160 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t156 = P::triple([P::lane(t134, 1), P::lane(t135, 1), P::lane(t136, 1)]);
     // velocity of the platform origin relative to the base
     let t157 = P::triple([P::lane(t100, 2), P::lane(t100, 0), P::lane(t100, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t158 = t33 * P::splat(P::lane(t133, 2));
     let t159 = mul_sub(t32, P::splat(P::lane(t133, 2)), t147);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t160 = mul_add(t36, P::splat(P::lane(t96, 2)), t149);
     let t161 = neg_mul_add(t36, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
     // acceleration of the platform origin relative to the base, less w x v
     let t162 = mul_add(P::splat(P::lane(t22, 0)), t143, t142) + t150;
     // second moment of payload and platform-side leg ends
     let t163 = P::triple([P::lane(t134, 2), P::lane(t135, 2), P::lane(t136, 2)]);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t164 = mul_add(t51, t152, mul_add(t44, t139, t39 * t137));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t165 = mul_sub(t37, P::splat(P::lane(t133, 1)), t158);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t166 = mul_add(t62, t129, t39);
     // second moment of payload and platform-side leg ends
     let t167 = t155 + t156 + t163;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t168 = mul_add(P::splat(P::lane(t96, 2)), t139, t159);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t169 = t47 * P::splat(P::lane(t133, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t170 = t32 * P::splat(P::lane(t133, 1));
     // acceleration of the platform origin relative to the base, less w x v
     let t171 = mul_sub(t127, t157, t145 * t146) + t162;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t172 = mul_add(t40, P::splat(P::lane(t96, 1)), t161);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t173 = mul_add(t63, t129, t44);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t174 = neg_mul_add(t39, t164, t137);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t175 = mul_add(P::splat(P::lane(t96, 1)), t152, t165);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t176 = t36 * P::splat(P::lane(t133, 2));
     let t177 = mul_sub(t40, P::splat(P::lane(t133, 2)), t169);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t178 = mul_sub(t33, P::splat(P::lane(t133, 0)), t170);
     // second moment of payload and platform-side leg ends
     let t179 = mul_add(t121, t13 * t13, t114 * (t20 * t20));
     let t180 = P::lane(t154, 1) + P::lane(t154, 0);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t181 = neg_mul_add(P::splat(P::lane(t96, 0)), t152, t168);
-    // legs 1, 2, 3: actuator length d
+    // legs 1, 3, 5: actuator length d
     let t182 = t57 - t82;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t183 = neg_mul_add(t44, t164, t139);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t184 = mul_add(t56, t172, mul_add(t54, t160, t52 * t151));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t185 = mul_sub(t47, P::splat(P::lane(t133, 1)), t176);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t186 = mul_add(t71, t148, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t187 = mul_add(t65, t129, t51);
     // second moment of payload and platform-side leg ends
     let t188 = P::triple([P::lane(t167, 1), P::lane(t153, 2), P::lane(t154, 2)]);
     let t189 = P::triple([c(0.0), P::lane(t153, 1) + P::lane(t153, 0), t180]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t190 = neg_mul_add(P::splat(P::lane(t96, 2)), t137, t175);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t191 = mul_add(P::splat(P::lane(t96, 2)), t160, t177);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t192 = mul_add(P::splat(P::lane(t96, 0)), t137, t178);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t193 = t40 * P::splat(P::lane(t133, 1));
     // second moment of payload and platform-side leg ends
     let t194 = t188 + t189;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t195 = P::splat(P::lane(t171, 1)) + t181;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t196 = mul_add(t39, t182, t21);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t197 = mul_add(t72, t148, t54);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t198 = neg_mul_add(t52, t184, t151);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t199 = neg_mul_add(t51, t164, t152);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t200 = mul_add(P::splat(P::lane(t96, 1)), t172, t185);
     let t201 = mul_sub(t36, P::splat(P::lane(t133, 0)), t193);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
     let t202 = mul_add(t152, t187, mul_add(t139, t173, t137 * t166));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t203 = t190 + P::splat(P::lane(t171, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t204 = neg_mul_add(P::splat(P::lane(t96, 0)), t172, t191);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t205 = neg_mul_add(P::splat(P::lane(t96, 1)), t139, t192);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t206 = mul_add(t44, t182, t38);
     let t207 = mul_add(t51, t182, t46);
-    // legs 4, 5, 6: actuator length d
+    // legs 2, 4, 6: actuator length d
     let t208 = t64 - t92;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t209 = P::splat(P::lane(t124, 0)) * t196;
     let t210 = P::splat(P::lane(t115, 1)) * t196;
     let t211 = P::splat(P::lane(t120, 2)) * t196;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t212 = neg_mul_add(t54, t184, t160);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t213 = mul_add(t73, t148, t56);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t214 = neg_mul_add(P::splat(P::lane(t96, 2)), t151, t200);
     let t215 = mul_add(P::splat(P::lane(t96, 0)), t151, t201);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t216 = mul_add(t199, t199, mul_add(t183, t183, t174 * t174));
     // second moment of payload and platform-side leg ends
     let t217 = P::triple([P::lane(t167, 2), P::lane(t194, 2), P::lane(t179, 2)]);
     let t218 = P::triple([c(0.0), c(0.0), P::lane(t179, 1) + P::lane(t179, 0)]);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
     let t219 = t164 - t202;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t220 = P::splat(P::lane(t171, 1)) + t204;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t221 = P::splat(P::lane(t171, 2)) + t205;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t222 = mul_add(P::splat(P::lane(t120, 0)), t207, P::splat(P::lane(t131, 0)));
     let t223 = t39 * P::splat(P::lane(t75, 2));
     let t224 = mul_add(P::splat(P::lane(t124, 1)), t207, P::splat(P::lane(t131, 1)));
     let t225 = t51 * P::splat(P::lane(t75, 0));
     let t226 = neg_mul_add(P::splat(P::lane(t115, 2)), t207, P::splat(P::lane(t131, 2)));
     let t227 = t44 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t228 = mul_add(t52, t208, t45);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t229 = neg_mul_add(t56, t184, t172);
     // second moment of payload and platform-side leg ends
     let t230 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
     let t231 = mul_add(t172, t213, mul_add(t160, t197, t151 * t186));
     // angular acceleration of the platform
     let t232 = P::triple([P::lane(t101, 2), P::lane(t101, 0), P::lane(t101, 1)]);
     // rotation of the platform seen from the base
     let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t234 = P::splat(P::lane(t171, 0)) + t214;
     let t235 = neg_mul_add(P::splat(P::lane(t96, 1)), t160, t215);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t236 = mul_add(t187, t221, mul_add(t173, t203, t166 * t195));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t237 = mul_sub(t51, P::splat(P::lane(t75, 1)), t223);
     let t238 = mul_sub(t44, P::splat(P::lane(t75, 2)), t225);
     let t239 = mul_sub(t39, P::splat(P::lane(t75, 0)), t227);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t240 = mul_add(t54, t208, t50);
     let t241 = mul_add(t56, t208, t55);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t242 = t222 - mul_sub(P::splat(P::lane(t115, 0)), t206, t209);
     let t243 = t202 * w(2.0);
     let t244 = mul_sub(P::splat(P::lane(t120, 1)), t206, t210) + t224;
     let t245 = mul_add(P::splat(P::lane(t124, 2)), t206, t211) + t226;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t246 = P::splat(P::lane(t124, 0)) * t228;
     let t247 = P::splat(P::lane(t115, 1)) * t228;
     let t248 = P::splat(P::lane(t120, 2)) * t228;
@@ -32698,22 +32933,22 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t254 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t255 = mul_sub(t88, t233, t14 * t126);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t256 = mul_add(t229, t229, mul_add(t212, t212, t198 * t198));
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
     let t257 = t184 - t231;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t258 = P::splat(P::lane(t171, 2)) + t235;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t259 = neg_mul_add(t129, mul_add(t219, t219, t216), t236);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t260 = mul_add(P::splat(P::lane(t120, 0)), t241, P::splat(P::lane(t131, 0)));
     let t261 = t52 * P::splat(P::lane(t75, 2));
     let t262 = mul_add(P::splat(P::lane(t124, 1)), t241, P::splat(P::lane(t131, 1)));
     let t263 = t56 * P::splat(P::lane(t75, 0));
     let t264 = neg_mul_add(P::splat(P::lane(t115, 2)), t241, P::splat(P::lane(t131, 2)));
     let t265 = t54 * P::splat(P::lane(t75, 1));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
     let t266 = w(1.0) - t106;
     // second moment of payload and platform-side leg ends
     let t267 = P::triple([P::lane(t167, 0), P::lane(t194, 1), P::lane(t217 + t218, 2)]);
@@ -32729,21 +32964,21 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t273 = mul_sub(t88, t253, t15 * t126);
     // rotation of the platform seen from the base
     let t274 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t275 = mul_add(t213, t258, mul_add(t197, t234, t186 * t220));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t276 = mul_sub(t56, P::splat(P::lane(t75, 1)), t261);
     let t277 = mul_sub(t54, P::splat(P::lane(t75, 2)), t263);
     let t278 = mul_sub(t52, P::splat(P::lane(t75, 0)), t265);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
+    // legs 1, 3, 5: rod's inertial coupling between its ends
     let t279 = neg_mul_add(t113, t266, t87);
     // acceleration per platform coordinate of points of the platform
     let t280 = mul_add(t126, t255, mul_sub(t252, t254, t232 * t233));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t281 = neg_mul_add(t44, t259, mul_add(t237, t243, t242));
     let t282 = neg_mul_add(t39, t259, mul_add(t238, t243, t244));
     let t283 = neg_mul_add(t51, t259, mul_add(t239, t243, t245));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t284 = t260 - mul_sub(P::splat(P::lane(t115, 0)), t240, t246);
     let t285 = t231 * w(2.0);
     let t286 = mul_sub(P::splat(P::lane(t120, 1)), t240, t247) + t262;
@@ -32769,13 +33004,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // acceleration per platform coordinate of points of the platform
     let t296 = mul_add(t126, t273, mul_sub(t252, t272, t232 * t253));
     let t297 = P::triple([P::lane(t255, 2), P::lane(t255, 0), P::lane(t255, 1)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t298 = neg_mul_add(t148, mul_add(t257, t257, t256), t275);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
     let t299 = w(1.0) - t102;
     // acceleration per platform coordinate of points of the platform
     let t300 = neg_mul_add(t295, t297, t280);
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t301 = t279 * t281;
     let t302 = t279 * t282;
     let t303 = t279 * t283;
@@ -32786,12 +33021,12 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t306 = P::triple([P::lane(t268, 1), P::lane(t269, 1), P::lane(t270, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t307 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
-    // legs 4, 5, 6: rod's inertial coupling between its ends
+    // legs 2, 4, 6: rod's inertial coupling between its ends
     let t308 = neg_mul_add(t105, t299, t81);
     // acceleration per platform coordinate of points of the platform
     let t309 = neg_mul_add(t295, t307, t296);
     let t310 = mul_add(t126, t293, mul_sub(t252, t292, t232 * t274));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t311 = neg_mul_add(t54, t298, mul_add(t276, t285, t284));
     let t312 = neg_mul_add(t52, t298, mul_add(t277, t285, t286));
     let t313 = neg_mul_add(t56, t298, mul_add(t278, t285, t287));
@@ -32801,13 +33036,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t315 = P::triple([P::lane(t268, 2), P::lane(t269, 2), P::lane(t270, 2)]);
     // acceleration per platform coordinate of points of the platform
     let t316 = P::triple([P::lane(t293, 2), P::lane(t293, 0), P::lane(t293, 1)]);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
     let t317 = mul_sub(t33, t303, t37 * t302);
     let t318 = mul_sub(t37, t301, t32 * t303);
     let t319 = mul_sub(t32, t302, t33 * t301);
     // acceleration per platform coordinate of points of the platform
     let t320 = neg_mul_add(t295, t316, t310);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t321 = t308 * t311;
     let t322 = t308 * t312;
     let t323 = t308 * t313;
@@ -32817,217 +33052,309 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t325 = t1 * P::splat(external_wrench[1]);
     // first moment of payload and platform-side leg ends
     let t326 = mul_add(P::splat(parameters.payload_mass), t288, t305 + t306 + t315);
-    // first moments by platform coordinate of the payload's inertia force
-    let t327 = mul_add(P::splat(P::lane(t294, 2)), t320, t324);
-    // inertia less external wrench that the actuators must balance
-    let t328 = mul_add(t2, P::splat(external_wrench[0]), t325);
-    // first moments by platform coordinate of the payload's inertia force
-    let t329 = t300 * P::splat(P::lane(t304, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t330 = neg_mul_add(t40, t323, mul_add(t47, t321, t318));
-    let t331 = neg_mul_add(t47, t322, mul_add(t36, t323, t317));
-    let t332 = neg_mul_add(t36, t321, mul_add(t40, t322, t319));
-    // first moments by platform coordinate of the payload's inertia force
-    let t333 = mul_sub(t132, P::splat(P::lane(t326, 0)), t327);
-    let t334 = mul_add(P::splat(P::lane(t294, 0)), t309, t329);
-    // inertia less external wrench that the actuators must balance
-    let t335 = mul_add(t5, P::splat(external_wrench[2]), t328);
-    // first moments by platform coordinate of the payload's inertia force
-    let t336 = t300 * P::splat(P::lane(t294, 1));
-    let t337 = mul_add(t320, P::splat(P::lane(t294, 1)), t334);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t338 = P::triple([P::lane(t331, 0), P::lane(t330, 0), P::lane(t332, 0)]);
-    let t339 = P::triple([P::lane(t331, 1), P::lane(t330, 1), P::lane(t332, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t340 = mul_sub(t132, P::splat(P::lane(t326, 1)), t337);
-    let t341 = mul_add(t309, P::splat(P::lane(t294, 2)), t336);
-    // inertia less external wrench that the actuators must balance
-    let t342 = P::triple([P::lane(t335, 2), P::lane(t335, 0), P::lane(t335, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t343 = P::triple([P::lane(t333, 2), P::lane(t333, 0), P::lane(t333, 1)]);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t344 = P::triple([P::lane(t331, 2), P::lane(t330, 2), P::lane(t332, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t345 = mul_add(P::splat(parameters.payload_com[0]), t342, t343);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t346 = t338 + t339 + t344;
-    // first moments by platform coordinate of the payload's inertia force
-    let t347 = mul_add(t320, P::splat(P::lane(t304, 2)), t341);
     // mass of payload and platform-side leg ends
-    let t348 = t114 + t121;
+    let t327 = t114 + t121;
+    // inertia force less weight, without the actuators' own shares
+    let t328 = mul_add(t279, t281, t321);
+    let t329 = mul_add(t279, t282, t322);
+    let t330 = mul_add(t279, t283, t323);
     // first moments by platform coordinate of the payload's inertia force
-    let t349 = mul_sub(t132, P::splat(P::lane(t326, 2)), t347);
-    let t350 = P::triple([P::lane(t340, 2), P::lane(t340, 0), P::lane(t340, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t351 = mul_add(t279, t281, t321);
-    let t352 = mul_add(t279, t282, t322);
-    let t353 = mul_add(t279, t283, t323);
+    let t331 = mul_add(P::splat(P::lane(t294, 2)), t320, t324);
     // inertia less external wrench that the actuators must balance
-    let t354 = mul_add(P::splat(parameters.payload_com[1]), t342, t350);
-    let t355 = P::triple([P::lane(t345, 2), P::lane(t345, 0), P::lane(t345, 1)]);
-    let t356 = neg_mul_add(t272, t355, mul_add(t253, t345, t346));
+    let t332 = mul_add(t2, P::splat(external_wrench[0]), t325);
     // first moments by platform coordinate of the payload's inertia force
-    let t357 = P::triple([P::lane(t349, 2), P::lane(t349, 0), P::lane(t349, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t358 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
-    let t359 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    let t333 = t300 * P::splat(P::lane(t304, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t334 = neg_mul_add(t47, t322, mul_add(t36, t323, t317));
+    let t335 = neg_mul_add(t40, t323, mul_add(t47, t321, t318));
+    let t336 = neg_mul_add(t36, t321, mul_add(t40, t322, t319));
+    // first moments by platform coordinate of the payload's inertia force
+    let t337 = mul_sub(t132, P::splat(P::lane(t326, 0)), t331);
+    let t338 = mul_add(P::splat(P::lane(t294, 0)), t309, t333);
     // inertia less external wrench that the actuators must balance
-    let t360 = mul_add(P::splat(parameters.payload_com[2]), t342, t357);
-    let t361 = P::triple([P::lane(t354, 2), P::lane(t354, 0), P::lane(t354, 1)]);
+    let t339 = mul_add(t5, P::splat(external_wrench[2]), t332);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t340 = P::triple([P::lane(t187, 2), P::lane(t187, 0), P::lane(t187, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t341 = P::triple([P::lane(t173, 1), P::lane(t173, 2), P::lane(t173, 0)]);
+    let t342 = P::triple([P::lane(t187, 1), P::lane(t187, 2), P::lane(t187, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t343 = P::triple([P::lane(t166, 2), P::lane(t166, 0), P::lane(t166, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t344 = P::triple([P::lane(t328, 0), P::lane(t329, 0), P::lane(t330, 0)]);
+    let t345 = P::triple([P::lane(t328, 1), P::lane(t329, 1), P::lane(t330, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t346 = mul_add(t320, P::splat(P::lane(t294, 1)), t338);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t347 = P::triple([P::lane(t173, 2), P::lane(t173, 0), P::lane(t173, 1)]);
     // mass of payload and platform-side leg ends
-    let t362 = P::lane(t348, 2) + (P::lane(t348, 1) + P::lane(t348, 0));
-    // inertia less external wrench that the actuators must balance
-    let t363 = neg_mul_add(t254, t361, mul_add(t233, t354, t356));
-    // inertia force less weight, without the actuators' own shares
-    let t364 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
-    // mass of payload and platform-side leg ends
-    let t365 = parameters.payload_mass + t362;
-    // inertia force less weight, without the actuators' own shares
-    let t366 = mul_add(t132, P::splat(t365), t358 + t359 + t364);
-    // inertia less external wrench that the actuators must balance
-    let t367 = P::triple([P::lane(t360, 2), P::lane(t360, 0), P::lane(t360, 1)]);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t368 = mul_sub(t33, t187, t37 * t166);
-    // inertia less external wrench that the actuators must balance
-    let t369 = neg_mul_add(t292, t367, mul_add(t274, t360, t363));
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t370 = mul_sub(t36, t213, t47 * t186);
-    // inertia force less weight, without the actuators' own shares
-    let t371 = mul_sub(t309, P::splat(P::lane(t326, 0)), t366);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t372 = mul_sub(t37, t173, t32 * t187);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t373 = mul_sub(t47, t197, t40 * t213);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t374 = mul_sub(t32, t166, t33 * t173);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t375 = mul_sub(t40, t186, t36 * t197);
-    // inertia less external wrench that the actuators must balance
-    let t376 = mul_add(t2, P::splat(external_wrench[3]), t369);
-    // inertia force less weight, without the actuators' own shares
-    let t377 = mul_add(t300, P::splat(P::lane(t326, 1)), t371);
-    // inertia less external wrench that the actuators must balance
-    let t378 = mul_add(t1, P::splat(external_wrench[4]), t376);
-    // inertia force less weight, without the actuators' own shares
-    let t379 = mul_add(t320, P::splat(P::lane(t326, 2)), t377);
-    // inertia less external wrench that the actuators must balance
-    let t380 = mul_add(t5, P::splat(external_wrench[5]), t378);
-    let t381 = t379 - t335;
-    let t382 = -P::lane(t380, 0);
-    let t383 = -P::lane(t380, 1);
-    let t384 = -P::lane(t380, 2);
+    let t348 = P::lane(t327, 2) + (P::lane(t327, 1) + P::lane(t327, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t349 = t300 * P::splat(P::lane(t294, 1));
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t350 = P::triple([P::lane(t166, 1), P::lane(t166, 2), P::lane(t166, 0)]);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t351 = mul_sub(t342, t347, t340 * t341);
+    let t352 = mul_sub(t340, t350, t342 * t343);
+    // inertia force less weight, without the actuators' own shares
+    let t353 = P::triple([P::lane(t328, 2), P::lane(t329, 2), P::lane(t330, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t354 = P::triple([P::lane(t334, 0), P::lane(t335, 0), P::lane(t336, 0)]);
+    let t355 = P::triple([P::lane(t334, 1), P::lane(t335, 1), P::lane(t336, 1)]);
+    // mass of payload and platform-side leg ends
+    let t356 = parameters.payload_mass + t348;
+    // first moments by platform coordinate of the payload's inertia force
+    let t357 = mul_sub(t132, P::splat(P::lane(t326, 1)), t346);
+    let t358 = mul_add(t309, P::splat(P::lane(t294, 2)), t349);
+    // inertia less external wrench that the actuators must balance
+    let t359 = P::triple([P::lane(t339, 2), P::lane(t339, 0), P::lane(t339, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t360 = P::triple([P::lane(t337, 2), P::lane(t337, 0), P::lane(t337, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t361 = mul_add(P::splat(parameters.payload_com[0]), t359, t360);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t362 = P::triple([P::lane(t334, 2), P::lane(t335, 2), P::lane(t336, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t363 = mul_add(t132, P::splat(t356), t344 + t345 + t353);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t364 = t354 + t355 + t362;
+    // force along the actuator that balances the remaining wrench
+    let t365 = t186 * P::splat(P::lane(t351, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t366 = mul_add(t320, P::splat(P::lane(t304, 2)), t358);
+    // force along the actuator that balances the remaining wrench
+    let t367 = mul_sub(t341, t343, t347 * t350);
+    let t368 = mul_add(t197, P::splat(P::lane(t352, 0)), t365);
+    let t369 = P::lane(t173, 1) * P::lane(t352, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t370 = mul_sub(t309, P::splat(P::lane(t326, 0)), t363);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t371 = mul_sub(t37, t173, t32 * t187);
+    let t372 = mul_sub(t32, t166, t33 * t173);
+    // first moments by platform coordinate of the payload's inertia force
+    let t373 = mul_sub(t132, P::splat(P::lane(t326, 2)), t366);
+    let t374 = P::triple([P::lane(t357, 2), P::lane(t357, 0), P::lane(t357, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t375 = mul_add(P::splat(parameters.payload_com[1]), t359, t374);
+    let t376 = P::triple([P::lane(t361, 2), P::lane(t361, 0), P::lane(t361, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t377 = P::mul_add(P::lane(t173, 0), P::lane(t352, 0), t369);
+    // inertia less external wrench that the actuators must balance
+    let t378 = neg_mul_add(t272, t376, mul_add(t253, t361, t364));
+    // force along the actuator that balances the remaining wrench
+    let t379 = mul_add(t213, P::splat(P::lane(t367, 0)), t368);
+    let t380 = t186 * P::splat(P::lane(t351, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t381 = mul_add(t300, P::splat(P::lane(t326, 1)), t370);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t382 = mul_sub(t47, t197, t40 * t213);
+    let t383 = mul_sub(t40, t186, t36 * t197);
+    // force along the actuator that balances the remaining wrench
+    let t384 = mul_add(t197, P::splat(P::lane(t352, 1)), t380);
+    let t385 = P::mul_add(P::lane(t173, 2), P::lane(t352, 2), t377);
+    let t386 = t186 * P::splat(P::lane(t351, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t387 = mul_add(t320, P::splat(P::lane(t326, 2)), t381);
+    // first moments by platform coordinate of the payload's inertia force
+    let t388 = P::triple([P::lane(t373, 2), P::lane(t373, 0), P::lane(t373, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t389 = mul_add(P::splat(parameters.payload_com[2]), t359, t388);
+    let t390 = P::triple([P::lane(t375, 2), P::lane(t375, 0), P::lane(t375, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t391 = mul_add(t213, P::splat(P::lane(t367, 1)), t384);
+    let t392 = mul_add(t197, P::splat(P::lane(t352, 2)), t386);
+    let t393 = mul_sub(t382, P::splat(t385), t379 * P::splat(P::lane(t371, 0)));
+    let t394 = mul_sub(t383, P::splat(t385), t379 * P::splat(P::lane(t372, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t395 = neg_mul_add(t254, t390, mul_add(t233, t375, t378));
+    let t396 = t387 - t339;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t397 = mul_sub(t33, t187, t37 * t166);
+    // force along the actuator that balances the remaining wrench
+    let t398 = mul_add(t213, P::splat(P::lane(t367, 2)), t392);
+    let t399 = neg_mul_add(P::splat(P::lane(t371, 1)), t391, t393);
+    let t400 = neg_mul_add(P::splat(P::lane(t372, 1)), t391, t394);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t401 = mul_sub(t36, t213, t47 * t186);
+    // inertia less external wrench that the actuators must balance
+    let t402 = P::triple([P::lane(t389, 2), P::lane(t389, 0), P::lane(t389, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t403 = neg_mul_add(P::splat(P::lane(t371, 2)), t398, t399);
+    let t404 = neg_mul_add(P::splat(P::lane(t372, 2)), t398, t400);
+    // inertia less external wrench that the actuators must balance
+    let t405 = neg_mul_add(t292, t402, mul_add(t274, t389, t395));
+    // force along the actuator that balances the remaining wrench
+    let t406 = t351 * P::splat(P::lane(t396, 1));
+    let t407 = mul_add(t352, P::splat(P::lane(t396, 0)), t406);
+    let t408 = mul_sub(P::splat(t385), t401, t379 * P::splat(P::lane(t397, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t409 = mul_add(t2, P::splat(external_wrench[3]), t405);
+    // force along the actuator that balances the remaining wrench
+    let t410 = mul_add(t367, P::splat(P::lane(t396, 2)), t407);
+    let t411 = neg_mul_add(t391, P::splat(P::lane(t397, 1)), t408);
+    let t412 = P::triple([P::lane(t403, 2), P::lane(t403, 0), P::lane(t403, 1)]);
+    let t413 = P::triple([P::lane(t403, 1), P::lane(t403, 2), P::lane(t403, 0)]);
+    let t414 = P::triple([P::lane(t404, 1), P::lane(t404, 2), P::lane(t404, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t415 = mul_add(t1, P::splat(external_wrench[4]), t409);
+    // force along the actuator that balances the remaining wrench
+    let t416 = P::triple([P::lane(t404, 2), P::lane(t404, 0), P::lane(t404, 1)]);
+    let t417 = neg_mul_add(t398, P::splat(P::lane(t397, 2)), t411);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t418 = P::triple([P::lane(t397, 0), P::lane(t371, 0), P::lane(t372, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t419 = mul_sub(t413, t416, t412 * t414);
+    // inertia less external wrench that the actuators must balance
+    let t420 = mul_add(t5, P::splat(external_wrench[5]), t415);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t421 = P::triple([P::lane(t397, 1), P::lane(t371, 1), P::lane(t372, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t422 = mul_add(P::splat(t385), t420, P::splat(P::lane(t410, 0)) * t418);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t423 = P::triple([P::lane(t397, 2), P::lane(t371, 2), P::lane(t372, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t424 = P::triple([P::lane(t417, 1), P::lane(t417, 2), P::lane(t417, 0)]);
+    let t425 = P::triple([P::lane(t417, 2), P::lane(t417, 0), P::lane(t417, 1)]);
+    let t426 = P::lane(t417, 1) * P::lane(t419, 1);
+    let t427 = mul_add(P::splat(P::lane(t410, 1)), t421, t422);
+    let t428 = P::mul_add(P::lane(t417, 0), P::lane(t419, 0), t426);
+    let t429 = mul_add(P::splat(P::lane(t410, 2)), t423, t427);
+    let t430 = mul_sub(t412, t424, t413 * t425);
+    let t431 = P::triple([P::lane(t379, 0), P::lane(t391, 0), P::lane(t398, 0)]);
+    let t432 = c(1.0) / P::mul_add(P::lane(t417, 2), P::lane(t419, 2), t428);
+    let t433 = P::triple([P::lane(t379, 1), P::lane(t391, 1), P::lane(t398, 1)]);
+    let t434 = mul_sub(t414, t425, t416 * t424) * P::splat(P::lane(t429, 1));
+    let t435 = P::triple([P::lane(t379, 2), P::lane(t391, 2), P::lane(t398, 2)]);
+    let t436 = mul_add(t419, P::splat(P::lane(t429, 0)), t434);
+    let t437 = P::splat(t432) * mul_add(t430, P::splat(P::lane(t429, 2)), t436);
+    // inertia less external wrench that the actuators must balance
+    let t438 = -P::lane(t420, 0);
+    let t439 = -P::lane(t420, 1);
+    let t440 = -P::lane(t420, 2);
+    // force along the actuator that balances the remaining wrench
+    let t441 = -t437;
+    let t442 = mul_add(t431, P::splat(P::lane(t437, 0)), t410);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t443 = t9 * P::splat(P::lane(t300, 1));
+    // force along the actuator that balances the remaining wrench
+    let t444 = mul_add(t433, P::splat(P::lane(t437, 1)), t442);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t445 = t18 * P::splat(P::lane(t300, 1));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t446 = t9 * P::splat(P::lane(t300, 0));
+    let t447 = neg_mul_add(t13, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t448 = mul_add(t435, P::splat(P::lane(t437, 2)), t444);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t449 = t18 * P::splat(P::lane(t300, 0));
+    let t450 = neg_mul_add(t20, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t451 = P::splat(c(1.0) / t385) * t448;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t452 = neg_mul_add(t13, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t453 = neg_mul_add(t20, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t454 = t9 * P::splat(P::lane(t300, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t455 = t18 * P::splat(P::lane(t300, 2));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t456 = t452 - mul_add(t12, P::splat(P::lane(t309, 0)), t446);
+    let t457 = neg_mul_add(t13, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t441, t451],
         &[
-            [P::lane(t173, 0), P::lane(t173, 1), P::lane(t173, 2), P::lane(t197, 0), P::lane(t197, 1), P::lane(t197, 2)],
-            [P::lane(t166, 0), P::lane(t166, 1), P::lane(t166, 2), P::lane(t186, 0), P::lane(t186, 1), P::lane(t186, 2)],
-            [P::lane(t187, 0), P::lane(t187, 1), P::lane(t187, 2), P::lane(t213, 0), P::lane(t213, 1), P::lane(t213, 2)],
-            [P::lane(t368, 0), P::lane(t368, 1), P::lane(t368, 2), P::lane(t370, 0), P::lane(t370, 1), P::lane(t370, 2)],
-            [P::lane(t372, 0), P::lane(t372, 1), P::lane(t372, 2), P::lane(t373, 0), P::lane(t373, 1), P::lane(t373, 2)],
-            [P::lane(t374, 0), P::lane(t374, 1), P::lane(t374, 2), P::lane(t375, 0), P::lane(t375, 1), P::lane(t375, 2)],
+            [t197, t173],
+            [t186, t166],
+            [t213, t187],
+            [t401, t397],
+            [t382, t371],
+            [t383, t372],
         ],
-        &[P::lane(t381, 0), P::lane(t381, 1), P::lane(t381, 2), t382, t383, t384],
+        &[P::lane(t396, 0), P::lane(t396, 1), P::lane(t396, 2), t438, t439, t440],
+        &[1, 3, 5, 0, 2, 4],
     );
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t385 = t9 * P::splat(P::lane(t300, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t386 = t18 * P::splat(P::lane(t300, 1));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t387 = t9 * P::splat(P::lane(t300, 0));
-    let t388 = neg_mul_add(t13, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t389 = t18 * P::splat(P::lane(t300, 0));
-    let t390 = neg_mul_add(t20, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t391 = neg_mul_add(t13, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t392 = neg_mul_add(t20, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t393 = t9 * P::splat(P::lane(t300, 2));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t394 = t18 * P::splat(P::lane(t300, 2));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t395 = t391 - mul_add(t12, P::splat(P::lane(t309, 0)), t387);
-    let t396 = neg_mul_add(t13, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
-    let t397 = t39 * (t388 - mul_add(t12, P::splat(P::lane(t309, 1)), t385));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t398 = t392 - mul_add(t19, P::splat(P::lane(t309, 0)), t389);
-    let t399 = t52 * (t390 - mul_add(t19, P::splat(P::lane(t309, 1)), t386));
-    let t400 = neg_mul_add(t20, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t458 = t39 * (t447 - mul_add(t12, P::splat(P::lane(t309, 1)), t443));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t459 = t453 - mul_add(t19, P::splat(P::lane(t309, 0)), t449);
+    let t460 = t52 * (t450 - mul_add(t19, P::splat(P::lane(t309, 1)), t445));
+    let t461 = neg_mul_add(t20, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
     // constant and copied elements
-    let t401 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t402 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t403 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t404 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t405 = t396 - mul_add(t12, P::splat(P::lane(t309, 2)), t393);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t406 = t400 - mul_add(t19, P::splat(P::lane(t309, 2)), t394);
+    let t462 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t463 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t464 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t465 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t466 = t457 - mul_add(t12, P::splat(P::lane(t309, 2)), t454);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t467 = t461 - mul_add(t19, P::splat(P::lane(t309, 2)), t455);
     // constant and copied elements
-    let t407 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t408 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t409 = mul_add(t51, t405, mul_add(t44, t395, t397));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t410 = mul_add(t56, t406, mul_add(t54, t398, t399));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t411 = mul_add(t182 - t401, t407, t202 * t402);
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t412 = mul_add(t208 - t403, t408, t231 * t404);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t413 = mul_add(t51, t283, mul_add(t44, t281, t39 * t282));
-    let t414 = mul_add(t239, t239, mul_add(t237, t237, t238 * t238));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t415 = mul_add(t56, t313, mul_add(t54, t311, t52 * t312));
-    let t416 = mul_add(t278, t278, mul_add(t276, t276, t277 * t277));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t417 = mul_add(t266, t107 * t266, t87);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t418 = mul_add(t299, t103 * t299, t81);
+    let t468 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    let t469 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t470 = mul_add(t51, t466, mul_add(t44, t456, t458));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t471 = mul_add(t56, t467, mul_add(t54, t459, t460));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t472 = mul_add(t182 - t462, t468, t202 * t463);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t473 = mul_add(t208 - t464, t469, t231 * t465);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t474 = mul_add(t51, t283, mul_add(t44, t281, t39 * t282));
+    let t475 = mul_add(t239, t239, mul_add(t237, t237, t238 * t238));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t476 = mul_add(t56, t313, mul_add(t54, t311, t52 * t312));
+    let t477 = mul_add(t278, t278, mul_add(t276, t276, t277 * t277));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t478 = mul_add(t266, t107 * t266, t87);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t479 = mul_add(t299, t103 * t299, t81);
     // constant and copied elements
-    let t419 =
-        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
-    let t420 =
-        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t421 = mul_add(t414, t419, t413);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t422 = mul_add(t416, t420, t415);
+    let t480 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[2], parameters.mover_offset[4]]);
+    let t481 =
+        P::triple([parameters.mover_offset[1], parameters.mover_offset[3], parameters.mover_offset[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t482 = mul_add(t475, t480, t474);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t483 = mul_add(t477, t481, t476);
     // constant and copied elements
-    let t423 =
-        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
-    let t424 =
-        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
-    // legs 1, 2, 3: actuator forces F
-    let t425 = mul_add(t413, t417, mul_add(t279, t409, t411));
-    // legs 4, 5, 6: actuator forces F
-    let t426 = mul_add(t415, t418, mul_add(t308, t410, t412));
+    let t484 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[2], parameters.mover_mass[4]]);
+    let t485 =
+        P::triple([parameters.mover_mass[1], parameters.mover_mass[3], parameters.mover_mass[5]]);
+    // legs 1, 3, 5: actuator forces F
+    let t486 = mul_add(t474, t478, mul_add(t279, t470, t472));
+    // legs 2, 4, 6: actuator forces F
+    let t487 = mul_add(t476, t479, mul_add(t308, t471, t473));
     // force along the actuator that balances the remaining wrench
-    let t427 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
-    // legs 1, 2, 3: actuator forces F
-    let t428 = mul_add(t421, t423, t425) + t427;
+    let t488 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t489 = mul_add(t482, t484, t486) + t488;
     // force along the actuator that balances the remaining wrench
-    let t429 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
-    // legs 4, 5, 6: actuator forces F
-    let t430 = mul_add(t422, t424, t426) + t429;
+    let t490 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t491 = mul_add(t483, t485, t487) + t490;
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t428, 0);
+    inverse_dynamics[0] = P::lane(t489, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t428, 1);
+    inverse_dynamics[1] = P::lane(t491, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t428, 2);
+    inverse_dynamics[2] = P::lane(t489, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t430, 0);
+    inverse_dynamics[3] = P::lane(t491, 1);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t430, 1);
+    inverse_dynamics[4] = P::lane(t489, 2);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t430, 2);
+    inverse_dynamics[5] = P::lane(t491, 2);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -33447,16 +33774,16 @@ pub fn control_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -33466,1289 +33793,1387 @@ pub fn control_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
-    let t27 = t9 * P::splat(P::lane(t14, 2));
-    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t29 = t18 * P::splat(P::lane(t14, 0));
-    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
-    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
-    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t12 * P::splat(P::lane(t14, 1));
+    let t26 = t12 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t27 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    let t28 = t9 * P::splat(P::lane(t14, 2));
+    let t29 = mul_add(t13, P::splat(P::lane(t15, 1)), t24);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t18, P::splat(P::lane(t15, 1)), t25);
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t26);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t28);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t27);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
     // constant and copied elements
-    let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    let t39 =
-        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
-    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
-    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
-    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    let t40 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 2, 4, 6: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
     // constant and copied elements
-    let t44 =
-        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t43 =
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t35 - t40;
+    // constant and copied elements
     let t45 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
-    let t46 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
-    // legs 4, 5, 6: platform joint from the base point
-    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
-    // legs 1, 2, 3: platform joint from the base point
-    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+        P::triple([parameters.actuator_axis[1][1], parameters.actuator_axis[3][1], parameters.actuator_axis[5][1]]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t43;
+    // constant and copied elements
+    let t47 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    let t48 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[2][1], parameters.actuator_axis[4][1]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = t37 + P::splat(P::lane(t22, 0)) - t47;
     // constant and copied elements
     let t50 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.actuator_axis[1][0], parameters.actuator_axis[3][0], parameters.actuator_axis[5][0]]);
     let t51 =
-        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
-    let t52 =
-        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t52 = P::splat(P::lane(t22, 2)) + t39 - t51;
     // constant and copied elements
+    let t53 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[2][0], parameters.actuator_axis[4][0]]);
     let t54 =
-        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
-    let t55 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t41 - t54;
+    // constant and copied elements
     let t56 =
-        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
-    // legs 4, 5, 6: platform joint from the base point
-    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+        P::triple([parameters.actuator_axis[1][2], parameters.actuator_axis[3][2], parameters.actuator_axis[5][2]]);
+    let t57 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[2][2], parameters.actuator_axis[4][2]]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t52, t56, mul_add(t46, t50, t42 * t45));
     // constant and copied elements
     let t59 =
-        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+        P::triple([parameters.rod_length[1], parameters.rod_length[3], parameters.rod_length[5]]);
     // angular velocity of the base
     let t60 = t1 * P::splat(base_velocity[4]);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t61 = t59 * t59;
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t62 = neg_mul_add(t39, t57, t43);
-    let t63 = neg_mul_add(t44, t57, t42);
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t65 = neg_mul_add(t51, t57, t49);
-    // angular velocity of the base
-    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
-    // velocity of the platform origin relative to the base
-    let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t62 = mul_add(t55, t57, mul_add(t49, t53, t44 * t48));
     // constant and copied elements
-    let t68 =
-        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
-    // angular velocity of the platform
-    let t69 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t70 = t68 * t68;
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t71 = neg_mul_add(t52, t64, t48);
-    let t72 = neg_mul_add(t54, t64, t53);
-    let t73 = neg_mul_add(t56, t64, t58);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t74 = mul_add(t63, t63, t62 * t62);
+    let t63 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[2], parameters.rod_length[4]]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t64 = t63 * t63;
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t65 = neg_mul_add(t45, t58, t42);
+    let t66 = neg_mul_add(t50, t58, t46);
+    let t67 = neg_mul_add(t56, t58, t52);
     // angular velocity of the base
-    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    let t68 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t48, t62, t44);
+    let t70 = neg_mul_add(t53, t62, t49);
+    let t71 = neg_mul_add(t57, t62, t55);
     // velocity of the platform origin relative to the base
-    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    let t72 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t73 = mul_add(t5, P::splat(base_velocity[5]), t68);
     // angular velocity of the platform
-    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    let t74 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t75 = mul_add(t66, t66, t65 * t65);
+    // velocity of the platform origin relative to the base
+    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t72);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t77 = mul_add(t70, t70, t69 * t69);
+    // angular velocity of the platform
+    let t78 = mul_add(t2, P::splat(platform_velocity[3]), t74);
     // angular acceleration of the base
-    let t78 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t79 = mul_add(t72, t72, t71 * t71);
+    let t79 = t1 * P::splat(base_acceleration[4]);
     // velocity of the platform origin relative to the base
     let t80 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t81 = sqrt(neg_mul_add(t65, t65, t61) - t74);
-    // angular acceleration of the base
-    let t82 = mul_add(t2, P::splat(base_acceleration[3]), t78);
     // angular velocity of the platform
-    let t83 = mul_add(t5, P::splat(platform_velocity[5]), t77);
+    let t81 = mul_add(t5, P::splat(platform_velocity[5]), t78);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t82 = sqrt(neg_mul_add(t67, t67, t61) - t75);
+    // angular acceleration of the base
+    let t83 = mul_add(t2, P::splat(base_acceleration[3]), t79);
     // platform origin seen from the base
     let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     // angular velocity of the base
-    let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t85 = P::triple([P::lane(t73, 1), P::lane(t73, 2), P::lane(t73, 0)]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t86 = sqrt(neg_mul_add(t71, t71, t64) - t77);
     // constant and copied elements
-    let t86 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t87 = t86 / t70;
+    let t87 =
+        P::triple([parameters.rod_inertia[1], parameters.rod_inertia[3], parameters.rod_inertia[5]]);
+    // angular velocity of the base
+    let t88 = P::triple([P::lane(t73, 0), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t89 = P::triple([P::lane(t73, 1), P::lane(t73, 1), P::lane(t73, 2)]);
     // angular acceleration of the base
-    let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t89 = sqrt(neg_mul_add(t73, t73, t70) - t79);
-    // angular velocity of the base
-    let t90 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t91 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
-    // constant and copied elements
-    let t92 =
-        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    let t90 = mul_add(t5, P::splat(base_acceleration[5]), t83);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t91 = t87 / t61;
     // angular velocity of the platform relative to the base
-    let t93 = t75 - t83;
+    let t92 = t73 - t81;
     // platform origin seen from the base
-    let t94 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    let t93 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
     // angular velocity of the base
-    let t95 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t94 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t96 = t90 * t91;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t97 = t92 / t61;
+    let t95 = t88 * t89;
     // velocity of the platform origin relative to the base
-    let t98 = mul_add(t94, t95, neg_mul_add(t84, t85, t80));
+    let t96 = mul_add(t93, t94, neg_mul_add(t84, t85, t80));
+    // constant and copied elements
+    let t97 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[2], parameters.rod_inertia[4]]);
     // angular velocity of the base
-    let t99 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t98 = P::triple([P::lane(t73, 2), P::lane(t73, 2), P::lane(t73, 0)]);
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t99 = t97 / t64;
     // acceleration of the base origin less gravity
     let t100 = base_acceleration[0] - parameters.gravity[0];
     let t101 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
     // angular velocity of the base
-    let t102 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t102 = P::triple([P::lane(t73, 1), P::lane(t73, 0), P::lane(t73, 1)]);
     // acceleration of the platform origin less gravity
     let t103 = t1 * P::splat(parameters.gravity[1]);
     // acceleration per base coordinate of points that move with the base
-    let t104 = mul_add(t102, t102, t99 * t99);
-    // constant and copied elements
-    let t105 =
-        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t106 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    let t104 = mul_add(t102, t102, t98 * t98);
     // angular acceleration of the base
-    let t107 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    let t105 = P::triple([P::lane(t90, 1), P::lane(t90, 2), P::lane(t90, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t108 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    let t106 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
     // angular velocity of the platform relative to the base
-    let t109 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t110 = t105 * t106;
+    let t107 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
     // angular acceleration of the base
-    let t111 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    let t108 = P::triple([P::lane(t90, 2), P::lane(t90, 0), P::lane(t90, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t112 = t107 + t108;
+    let t109 = t105 + t106;
     // acceleration of the platform origin less gravity
-    let t113 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t114 = neg_mul_add(t32, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
-    // acceleration of the base origin less gravity
-    let t115 = base_acceleration[2] - parameters.gravity[2];
-    // acceleration per base coordinate of points that move with the base
-    let t116 = mul_sub(t90, t91, t111);
+    let t110 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
     // constant and copied elements
-    let t117 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t118 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    let t111 =
+        P::triple([parameters.rod_com_fraction[1], parameters.rod_com_fraction[3], parameters.rod_com_fraction[5]]);
+    let t112 = P::triple([parameters.rod_mass[1], parameters.rod_mass[3], parameters.rod_mass[5]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t36, P::splat(P::lane(t92, 2)), P::splat(P::lane(t96, 1)));
+    // acceleration of the base origin less gravity
+    let t114 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t115 = mul_sub(t88, t89, t108);
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t116 = t111 * t112;
     // angular velocity of the platform
-    let t119 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t120 = t117 * t118;
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t121 = mul_add(t105, t110, t87);
+    let t117 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t118 = neg_mul_add(t37, P::splat(P::lane(t92, 2)), P::splat(P::lane(t96, 1)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t122 = t85 + t119;
+    let t119 = t85 + t117;
     // angular velocity of the platform relative to the base
-    let t123 = P::triple([P::lane(t93, 1), P::lane(t93, 2), P::lane(t93, 0)]);
-    // legs 1, 2, 3: reciprocal of that extent
-    let t124 = w(1.0) / t81;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t125 = neg_mul_add(t37, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    let t120 = P::triple([P::lane(t92, 1), P::lane(t92, 2), P::lane(t92, 0)]);
+    // legs 2, 4, 6: reciprocal of that extent
+    let t121 = w(1.0) / t82;
+    // constant and copied elements
+    let t122 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[2], parameters.rod_com_fraction[4]]);
+    let t123 = P::triple([parameters.rod_mass[0], parameters.rod_mass[2], parameters.rod_mass[4]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t124 = neg_mul_add(t39, P::splat(P::lane(t92, 1)), P::splat(P::lane(t96, 0)));
     // acceleration of the base origin less gravity
-    let t126 = mul_add(t5, P::splat(t115), mul_add(t2, P::splat(t100), t101));
+    let t125 = mul_add(t5, P::splat(t114), mul_add(t2, P::splat(t100), t101));
     // acceleration of the platform origin less gravity
-    let t127 = mul_add(t5, P::splat(parameters.gravity[2]), t113);
+    let t126 = mul_add(t5, P::splat(parameters.gravity[2]), t110);
     // rate of that angular velocity
-    let t128 = mul_add(t95, t123, neg_mul_add(t85, t109, t88));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t129 = mul_add(t37, P::splat(P::lane(t93, 0)), t114);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t130 = mul_add(t117, t120, t97);
+    let t127 = mul_add(t94, t120, neg_mul_add(t85, t107, t90));
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t128 = t122 * t123;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t129 = mul_add(t111, t116, t91);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t130 = mul_add(t39, P::splat(P::lane(t92, 0)), t113);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t131 = w(1.0) / t86;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t41, P::splat(P::lane(t92, 1)), P::splat(P::lane(t96, 0)));
+    let t133 = mul_add(t41, P::splat(P::lane(t92, 0)), t118);
     // acceleration per base coordinate of points that move with the base
-    let t131 = P::triple([P::lane(t116, 0), -P::lane(t104, 1), P::lane(t112, 2)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t132 = mul_add(t33, P::splat(P::lane(t93, 2)), t125);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t133 = neg_mul_add(t40, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t134 = neg_mul_add(t33, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    let t134 = P::triple([P::lane(t115, 0), -P::lane(t104, 1), P::lane(t109, 2)]);
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t135 = mul_add(t122, t128, t99);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t136 = mul_add(t34, P::splat(P::lane(t92, 2)), t124);
+    let t137 = neg_mul_add(t34, P::splat(P::lane(t92, 0)), P::splat(P::lane(t96, 2)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t135 = P::splat(P::lane(t22, 1)) * t131;
-    // second moment of payload and platform-side leg ends
-    let t136 = mul_add(t130, t12 * t12, t121 * (t19 * t19));
-    let t137 = mul_add(t130, t9 * t12, t121 * (t18 * t19));
-    let t138 = mul_add(t130, t12 * t13, t121 * (t19 * t20));
+    let t138 = P::splat(P::lane(t22, 1)) * t134;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t139 = mul_add(t35, P::splat(P::lane(t92, 2)), t132);
+    let t140 = neg_mul_add(t35, P::splat(P::lane(t92, 0)), P::splat(P::lane(t96, 2)));
     // acceleration per base coordinate of points that move with the base
-    let t139 = P::triple([-P::lane(t104, 0), P::lane(t112, 1), P::lane(t116, 2)]);
-    let t140 = P::triple([P::lane(t112, 0), P::lane(t116, 1), -P::lane(t104, 2)]);
+    let t141 = P::triple([-P::lane(t104, 0), P::lane(t109, 1), P::lane(t115, 2)]);
+    let t142 = P::triple([P::lane(t109, 0), P::lane(t115, 1), -P::lane(t104, 2)]);
     // velocity of the platform origin relative to the base
-    let t141 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    let t143 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t142 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t143 = t37 * P::splat(P::lane(t128, 0));
-    // legs 4, 5, 6: reciprocal of that extent
-    let t144 = w(1.0) / t89;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t145 = neg_mul_add(t47, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    let t144 = P::triple([P::lane(t119, 1), P::lane(t119, 2), P::lane(t119, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t145 = t39 * P::splat(P::lane(t127, 0));
     // acceleration of the platform origin relative to the base, less w x v
-    let t146 = mul_add(P::splat(P::lane(t22, 2)), t140, t126 + t127);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t147 = mul_add(t47, P::splat(P::lane(t93, 0)), t133);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t148 = mul_add(t32, P::splat(P::lane(t93, 1)), t134);
+    let t146 = mul_add(P::splat(P::lane(t22, 2)), t142, t125 + t126);
+    // second moment of payload and platform-side leg ends
+    let t147 = mul_add(t135, t18 * t18, t129 * (t13 * t13));
+    let t148 = mul_add(t135, t12 * t18, t129 * (t9 * t13));
+    let t149 = mul_add(t135, t18 * t20, t129 * (t13 * t19));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t150 = mul_add(t36, P::splat(P::lane(t92, 1)), t137);
+    // rotation of the platform seen from the base
+    let t151 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t152 = t41 * P::splat(P::lane(t127, 0));
+    // acceleration per platform coordinate of points of the platform
+    let t153 = mul_sub(t81, t151, t14 * t117);
     // velocity of the platform origin relative to the base
-    let t149 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t150 = t33 * P::splat(P::lane(t128, 2));
-    let t151 = mul_sub(t32, P::splat(P::lane(t128, 2)), t143);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t152 = mul_add(t36, P::splat(P::lane(t93, 2)), t145);
-    let t153 = neg_mul_add(t36, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t154 = mul_add(P::splat(P::lane(t22, 0)), t139, t135) + t146;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t155 = mul_add(t51, t148, mul_add(t44, t132, t39 * t129));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t156 = mul_sub(t37, P::splat(P::lane(t128, 1)), t150);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t157 = mul_add(t62, t124, t39);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t158 = mul_add(P::splat(P::lane(t93, 2)), t132, t151);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t159 = t47 * P::splat(P::lane(t128, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t160 = t32 * P::splat(P::lane(t128, 1));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t161 = w(1.0) - t117;
-    // second moment of payload and platform-side leg ends
-    let t162 = mul_add(t130, t9 * t9, t121 * (t18 * t18));
-    let t163 = mul_add(t130, t9 * t13, t121 * (t18 * t20));
-    let t164 = P::triple([P::lane(t136, 0), P::lane(t137, 0), P::lane(t138, 0)]);
-    let t165 = P::triple([P::lane(t136, 1), P::lane(t137, 1), P::lane(t138, 1)]);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t166 = mul_sub(t122, t149, t141 * t142) + t154;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t167 = mul_add(t40, P::splat(P::lane(t93, 1)), t153);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t168 = mul_add(t63, t124, t44);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t169 = P::splat(base_rotation[0][1]) * t39;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t170 = neg_mul_add(t39, t155, t129);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t171 = mul_add(P::splat(P::lane(t93, 1)), t148, t156);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t172 = t36 * P::splat(P::lane(t128, 2));
-    let t173 = mul_sub(t40, P::splat(P::lane(t128, 2)), t159);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t174 = mul_sub(t33, P::splat(P::lane(t128, 0)), t160);
-    // second moment of payload and platform-side leg ends
-    let t175 = P::triple([P::lane(t136, 2), P::lane(t137, 2), P::lane(t138, 2)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t176 = P::splat(base_rotation[1][1]) * t39;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t177 = neg_mul_add(P::splat(P::lane(t93, 0)), t148, t158);
-    // legs 1, 2, 3: actuator length d
-    let t178 = t57 - t81;
-    // second moment of payload and platform-side leg ends
-    let t179 = t164 + t165 + t175;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t180 = P::splat(base_rotation[2][1]) * t39;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t181 = P::splat(base_rotation[0][1]) * t157;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t182 = mul_add(P::splat(base_rotation[0][0]), t44, t169);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t183 = neg_mul_add(t44, t155, t132);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t184 = mul_add(t56, t167, mul_add(t54, t152, t52 * t147));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t185 = mul_sub(t47, P::splat(P::lane(t128, 1)), t172);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t186 = mul_add(t71, t144, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t187 = mul_add(t65, t124, t51);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t188 = P::splat(base_rotation[1][1]) * t157;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t189 = mul_add(t161, t118 * t161, t97);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t190 = mul_add(P::splat(base_rotation[1][0]), t44, t176);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t191 = neg_mul_add(P::splat(P::lane(t93, 2)), t129, t171);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t192 = mul_add(P::splat(P::lane(t93, 2)), t152, t173);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t193 = mul_add(P::splat(P::lane(t93, 0)), t129, t174);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t194 = t40 * P::splat(P::lane(t128, 1));
-    // legs 1, 2, 3: gradient of the actuator length
-    let t195 = P::splat(base_rotation[2][1]) * t157;
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t196 = w(1.0) - t105;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t197 = mul_add(P::splat(base_rotation[2][0]), t44, t180);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t198 = P::splat(P::lane(t166, 1)) + t177;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t199 = mul_add(t39, t178, t21);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t200 = mul_add(P::splat(base_rotation[0][0]), t168, t181);
-    // second moment of payload and platform-side leg ends
-    let t201 = mul_add(t130, t13 * t13, t121 * (t20 * t20));
-    let t202 = P::lane(t163, 1) + P::lane(t163, 0);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t203 = mul_add(t72, t144, t54);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t204 = mul_add(P::splat(base_rotation[1][0]), t168, t188);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
-    let t205 = neg_mul_add(t120, t161, t97);
-    // constant and copied elements
-    let t206 =
-        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t207 = P::splat(base_rotation[1][1]) * t52;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t208 = neg_mul_add(t52, t184, t147);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t209 = neg_mul_add(t51, t155, t148);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t210 = mul_add(P::splat(P::lane(t93, 1)), t167, t185);
-    let t211 = mul_sub(t36, P::splat(P::lane(t128, 0)), t194);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t212 = mul_add(P::splat(base_rotation[2][0]), t168, t195);
-    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
-    let t213 = t189 + t206;
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t214 = mul_add(t148, t187, mul_add(t132, t168, t129 * t157));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t215 = t191 + P::splat(P::lane(t166, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t216 = neg_mul_add(P::splat(P::lane(t93, 0)), t167, t192);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t217 = neg_mul_add(P::splat(P::lane(t93, 1)), t132, t193);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t218 = mul_add(t44, t178, t38);
-    let t219 = mul_add(t51, t178, t46);
-    // legs 4, 5, 6: actuator length d
-    let t220 = t64 - t89;
-    // second moment of payload and platform-side leg ends
-    let t221 = P::triple([P::lane(t179, 1), P::lane(t162, 2), P::lane(t163, 2)]);
-    let t222 = P::triple([c(0.0), P::lane(t162, 1) + P::lane(t162, 0), t202]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t223 = P::splat(P::lane(t116, 0)) * t199;
-    let t224 = P::splat(P::lane(t104, 1)) * t199;
-    let t225 = P::splat(P::lane(t112, 2)) * t199;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t226 = mul_add(P::splat(base_rotation[0][2]), t187, t200);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t227 = P::splat(base_rotation[1][1]) * t186;
-    // second moment of payload and platform-side leg ends
-    let t228 = t221 + t222;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t229 = P::splat(base_rotation[0][1]) * t52;
-    let t230 = mul_add(P::splat(base_rotation[1][0]), t54, t207);
-    let t231 = P::splat(base_rotation[2][1]) * t52;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t232 = neg_mul_add(t54, t184, t152);
+    let t154 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t155 = t34 * P::splat(P::lane(t127, 2));
+    let t156 = mul_sub(t36, P::splat(P::lane(t127, 2)), t145);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t157 = mul_add(t37, P::splat(P::lane(t92, 1)), t140);
     // rotation of the platform seen from the base
-    let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t234 = mul_add(t73, t144, t56);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t235 = mul_add(P::splat(base_rotation[1][2]), t187, t204);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t236 = mul_add(t196, t106 * t196, t87);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t237 = t213 * w(0.5);
-    let t238 = t205 * mul_add(P::splat(base_rotation[0][2]), t51, t182);
+    let t158 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t159 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t160 = mul_add(P::splat(P::lane(t22, 0)), t141, t138) + t146;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t161 = t35 * P::splat(P::lane(t127, 2));
+    let t162 = mul_sub(t37, P::splat(P::lane(t127, 2)), t152);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t163 = mul_add(t56, t150, mul_add(t50, t136, t45 * t130));
     // acceleration per platform coordinate of points of the platform
-    let t239 = mul_sub(t83, t233, t14 * t119);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t240 = neg_mul_add(P::splat(P::lane(t93, 2)), t147, t210);
-    let t241 = mul_add(P::splat(P::lane(t93, 0)), t147, t211);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t242 = mul_add(t209, t209, mul_add(t183, t183, t170 * t170));
-    // legs 1, 2, 3: gradient of the actuator length
-    let t243 = mul_add(P::splat(base_rotation[2][2]), t187, t212);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t244 = t205 * mul_add(P::splat(base_rotation[1][2]), t51, t190);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t245 = t155 - t214;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t246 = P::splat(P::lane(t166, 1)) + t216;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t247 = P::splat(P::lane(t166, 2)) + t217;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t248 = mul_add(P::splat(P::lane(t112, 0)), t219, P::splat(P::lane(t126, 0)));
-    let t249 = t39 * P::splat(P::lane(t75, 2));
-    let t250 = mul_add(P::splat(P::lane(t116, 1)), t219, P::splat(P::lane(t126, 1)));
-    let t251 = t51 * P::splat(P::lane(t75, 0));
-    let t252 = neg_mul_add(P::splat(P::lane(t104, 2)), t219, P::splat(P::lane(t126, 2)));
-    let t253 = t44 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t254 = mul_add(t52, t220, t45);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t255 = P::splat(base_rotation[0][1]) * t186;
-    let t256 = mul_add(P::splat(base_rotation[1][0]), t203, t227);
-    let t257 = P::splat(base_rotation[2][1]) * t186;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t258 = mul_add(P::splat(base_rotation[0][0]), t54, t229);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t259 = t205 * mul_add(P::splat(base_rotation[2][2]), t51, t197);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t260 = mul_add(P::splat(base_rotation[2][0]), t54, t231);
-    // rotation of the platform seen from the base
-    let t261 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    let t262 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t263 = P::splat(platform_rotation[2][1]) * t9;
-    // legs 4, 5, 6: rod's inertial coupling between its ends
-    let t264 = neg_mul_add(t110, t196, t87);
-    // constant and copied elements
-    let t265 =
-        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t266 = mul_sub(t226, t237, t238);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t267 = neg_mul_add(t56, t184, t167);
-    // acceleration per platform coordinate of points of the platform
-    let t268 = mul_sub(t83, t261, t15 * t119);
-    let t269 = mul_sub(t83, t262, t17 * t119);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t270 = P::splat(platform_rotation[0][1]) * t9;
-    let t271 = P::splat(platform_rotation[1][1]) * t9;
-    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
-    let t272 = t236 + t265;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t273 = mul_sub(t235, t237, t244);
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t274 = mul_add(t167, t234, mul_add(t152, t203, t147 * t186));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t275 = P::splat(P::lane(t166, 0)) + t240;
-    let t276 = neg_mul_add(P::splat(P::lane(t93, 1)), t152, t241);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t277 = mul_add(t187, t247, mul_add(t168, t215, t157 * t198));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t278 = mul_sub(t51, P::splat(P::lane(t75, 1)), t249);
-    let t279 = mul_sub(t44, P::splat(P::lane(t75, 2)), t251);
-    let t280 = mul_sub(t39, P::splat(P::lane(t75, 0)), t253);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t281 = mul_add(t54, t220, t50);
-    let t282 = mul_add(t56, t220, t55);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t283 = mul_add(P::splat(base_rotation[0][0]), t203, t255);
-    let t284 = mul_add(P::splat(base_rotation[2][0]), t203, t257);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t285 = mul_sub(t237, t243, t259);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t286 = t248 - mul_sub(P::splat(P::lane(t104, 0)), t218, t223);
-    let t287 = t214 * w(2.0);
-    let t288 = mul_sub(P::splat(P::lane(t112, 1)), t218, t224) + t250;
-    let t289 = mul_add(P::splat(P::lane(t116, 2)), t218, t225) + t252;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t290 = P::splat(P::lane(t116, 0)) * t254;
-    let t291 = P::splat(P::lane(t104, 1)) * t254;
-    let t292 = P::splat(P::lane(t112, 2)) * t254;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t293 = mul_add(P::splat(platform_rotation[2][0]), t12, t263);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t294 = mul_add(P::splat(base_rotation[1][2]), t234, t256);
+    let t164 = mul_sub(t81, t158, t15 * t117);
+    let t165 = mul_sub(t81, t159, t17 * t117);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t166 = mul_sub(t39, P::splat(P::lane(t127, 1)), t155);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t167 = mul_add(t65, t121, t45);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t168 = mul_add(P::splat(P::lane(t92, 2)), t136, t156);
+    let t169 = t36 * P::splat(P::lane(t127, 1));
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t170 = mul_add(t57, t157, mul_add(t53, t139, t48 * t133));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t171 = mul_sub(t119, t154, t143 * t144) + t160;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t172 = mul_sub(t41, P::splat(P::lane(t127, 1)), t161);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t173 = mul_add(t69, t131, t48);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t174 = mul_add(P::splat(P::lane(t92, 2)), t139, t162);
+    let t175 = t37 * P::splat(P::lane(t127, 1));
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t176 = mul_add(t66, t121, t50);
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t177 = w(1.0) - t122;
     // second moment of payload and platform-side leg ends
-    let t295 = P::triple([P::lane(t179, 2), P::lane(t228, 2), P::lane(t201, 2)]);
-    let t296 = P::triple([c(0.0), c(0.0), P::lane(t201, 1) + P::lane(t201, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t297 = mul_add(P::splat(platform_rotation[0][0]), t12, t270);
-    let t298 = mul_add(P::splat(platform_rotation[1][0]), t12, t271);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t299 = w(0.5) * t272;
-    let t300 = t264 * mul_add(P::splat(base_rotation[1][2]), t56, t230);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t301 = mul_add(t267, t267, mul_add(t232, t232, t208 * t208));
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t302 = t184 - t274;
+    let t178 = mul_add(t135, t12 * t12, t129 * (t9 * t9));
+    let t179 = mul_add(t135, t12 * t20, t129 * (t9 * t19));
+    let t180 = P::triple([P::lane(t147, 0), P::lane(t148, 0), P::lane(t149, 0)]);
+    let t181 = P::triple([P::lane(t147, 1), P::lane(t148, 1), P::lane(t149, 1)]);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t182 = neg_mul_add(t45, t163, t130);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t183 = mul_add(P::splat(P::lane(t92, 1)), t150, t166);
+    let t184 = mul_sub(t34, P::splat(P::lane(t127, 0)), t169);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t185 = w(1.0) - t111;
     // angular velocity of the platform
-    let t303 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t186 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t304 = P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t305 = P::splat(P::lane(t166, 2)) + t276;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t306 = neg_mul_add(t124, mul_add(t245, t245, t242), t277);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t307 = mul_add(P::splat(P::lane(t112, 0)), t282, P::splat(P::lane(t126, 0)));
-    let t308 = t52 * P::splat(P::lane(t75, 2));
-    let t309 = mul_add(P::splat(P::lane(t116, 1)), t282, P::splat(P::lane(t126, 1)));
-    let t310 = t56 * P::splat(P::lane(t75, 0));
-    let t311 = neg_mul_add(P::splat(P::lane(t104, 2)), t282, P::splat(P::lane(t126, 2)));
-    let t312 = t54 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: gradient of the actuator length
-    let t313 = mul_add(P::splat(base_rotation[0][2]), t234, t283);
-    let t314 = mul_add(P::splat(base_rotation[2][2]), t234, t284);
+    let t187 = P::triple([P::lane(t153, 2), P::lane(t153, 0), P::lane(t153, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t188 = neg_mul_add(P::splat(P::lane(t92, 0)), t150, t168);
+    // legs 2, 4, 6: actuator length d
+    let t189 = t58 - t82;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t190 = mul_add(t70, t131, t53);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t191 = P::splat(base_rotation[0][1]) * t48;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t192 = neg_mul_add(t48, t170, t133);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t193 = mul_add(P::splat(P::lane(t92, 1)), t157, t172);
+    let t194 = mul_sub(t35, P::splat(P::lane(t127, 0)), t175);
     // second moment of payload and platform-side leg ends
-    let t315 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t316 = t243 * t285;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t317 = P::splat(platform_rotation[0][1]) * t18;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t318 = mul_add(P::splat(platform_rotation[2][2]), t13, t293);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t319 = t264 * mul_add(P::splat(base_rotation[0][2]), t56, t258);
-    let t320 = mul_sub(t294, t299, t300);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t321 = mul_add(t226, t285, t243 * t266);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t322 = t264 * mul_add(P::splat(base_rotation[2][2]), t56, t260);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t323 = mul_add(P::splat(platform_rotation[0][2]), t13, t297);
-    let t324 = mul_add(P::splat(platform_rotation[1][2]), t13, t298);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t325 = P::splat(platform_rotation[1][1]) * t18;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t326 = mul_add(t235, t285, t243 * t273);
+    let t195 = P::triple([P::lane(t147, 2), P::lane(t148, 2), P::lane(t149, 2)]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t196 = P::splat(base_rotation[0][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t197 = P::splat(base_rotation[1][1]) * t48;
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t198 = neg_mul_add(t50, t163, t136);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t199 = neg_mul_add(P::splat(P::lane(t92, 0)), t157, t174);
+    // legs 1, 3, 5: actuator length d
+    let t200 = t62 - t86;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t201 = mul_add(t67, t121, t56);
+    // second moment of payload and platform-side leg ends
+    let t202 = t180 + t181 + t195;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t203 = P::splat(base_rotation[2][1]) * t48;
     // acceleration per platform coordinate of points of the platform
-    let t327 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
-    let t328 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t329 = mul_add(t234, t305, mul_add(t203, t275, t186 * t246));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t330 = mul_sub(t56, P::splat(P::lane(t75, 1)), t308);
-    let t331 = mul_sub(t54, P::splat(P::lane(t75, 2)), t310);
-    let t332 = mul_sub(t52, P::splat(P::lane(t75, 0)), t312);
+    let t204 = P::triple([P::lane(t164, 2), P::lane(t164, 0), P::lane(t164, 1)]);
+    let t205 = P::triple([P::lane(t165, 2), P::lane(t165, 0), P::lane(t165, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t206 = neg_mul_add(P::splat(P::lane(t92, 2)), t130, t183);
+    let t207 = mul_add(P::splat(P::lane(t92, 0)), t130, t184);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t208 = P::splat(base_rotation[0][1]) * t173;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t209 = mul_add(P::splat(base_rotation[0][0]), t53, t191);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t210 = neg_mul_add(t53, t170, t139);
+    // acceleration per platform coordinate of points of the platform
+    let t211 = mul_sub(t117, t153, t186 * t187);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t212 = P::splat(P::lane(t171, 1)) + t188;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t213 = mul_add(t45, t189, t21);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t214 = mul_add(t71, t131, t57);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t215 = P::splat(base_rotation[0][1]) * t167;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t216 = P::splat(base_rotation[1][1]) * t173;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t217 = mul_add(t177, t123 * t177, t99);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t218 = mul_add(P::splat(base_rotation[0][0]), t50, t196);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t219 = mul_add(P::splat(base_rotation[1][0]), t53, t197);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t220 = P::splat(base_rotation[1][1]) * t45;
+    let t221 = P::splat(base_rotation[2][1]) * t45;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t222 = neg_mul_add(P::splat(P::lane(t92, 2)), t133, t193);
+    let t223 = mul_add(P::splat(P::lane(t92, 0)), t133, t194);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t224 = P::splat(base_rotation[2][1]) * t173;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t225 = mul_add(t185, t112 * t185, t91);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t226 = mul_add(P::splat(base_rotation[2][0]), t53, t203);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t227 = neg_mul_add(t56, t163, t150);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t228 = P::splat(P::lane(t171, 1)) + t199;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t229 = mul_add(t48, t200, t40);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t230 = mul_add(P::splat(base_rotation[0][0]), t190, t208);
     // second moment of payload and platform-side leg ends
-    let t333 = t315 + parameters.payload_inertia[2][2];
+    let t231 = mul_add(t135, t20 * t20, t129 * (t19 * t19));
+    let t232 = P::lane(t179, 1) + P::lane(t179, 0);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t233 = mul_add(t150, t201, mul_add(t136, t176, t130 * t167));
+    // acceleration per platform coordinate of points of the platform
+    let t234 = mul_sub(t117, t164, t186 * t204);
+    let t235 = mul_sub(t117, t165, t186 * t205);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t236 = t206 + P::splat(P::lane(t171, 0));
+    let t237 = neg_mul_add(P::splat(P::lane(t92, 1)), t136, t207);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t238 = mul_add(t50, t189, t43);
+    let t239 = mul_add(t56, t189, t51);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t240 = mul_add(P::splat(base_rotation[0][0]), t176, t215);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t241 = mul_add(P::splat(base_rotation[1][0]), t190, t216);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t242 = P::splat(base_rotation[1][1]) * t167;
+    let t243 = P::splat(base_rotation[2][1]) * t167;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t244 = neg_mul_add(t128, t177, t99);
     // constant and copied elements
-    let t334 =
+    let t245 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[2], parameters.mover_mass[4]]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t246 = mul_add(P::splat(base_rotation[1][0]), t50, t220);
+    let t247 = mul_add(P::splat(base_rotation[2][0]), t50, t221);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t248 = neg_mul_add(t57, t170, t157);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t249 = P::splat(P::lane(t104, 1)) * t213;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t250 = mul_add(P::splat(base_rotation[2][0]), t190, t224);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t251 = neg_mul_add(t116, t185, t91);
+    // legs 1, 3, 5: mass that slides along the actuator axis: mover and rod's end
+    let t252 = t217 + t245;
+    // constant and copied elements
+    let t253 =
+        P::triple([parameters.mover_mass[1], parameters.mover_mass[3], parameters.mover_mass[5]]);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t254 = mul_add(t157, t214, mul_add(t139, t190, t133 * t173));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t255 = P::splat(P::lane(t171, 0)) + t222;
+    let t256 = neg_mul_add(P::splat(P::lane(t92, 1)), t139, t223);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t257 = mul_add(t53, t200, t47);
+    let t258 = mul_add(t57, t200, t54);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t259 = P::splat(P::lane(t115, 0)) * t213;
+    let t260 = P::splat(P::lane(t109, 2)) * t213;
+    // legs 2, 4, 6: mass that slides along the actuator axis: mover and rod's end
+    let t261 = t225 + t253;
+    // second moment of payload and platform-side leg ends
+    let t262 = P::triple([P::lane(t202, 1), P::lane(t178, 2), P::lane(t179, 2)]);
+    let t263 = P::triple([c(0.0), P::lane(t178, 1) + P::lane(t178, 0), t232]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t264 = mul_add(t227, t227, mul_add(t198, t198, t182 * t182));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t265 = P::splat(P::lane(t115, 0)) * t229;
+    let t266 = P::splat(P::lane(t104, 1)) * t229;
+    let t267 = P::splat(P::lane(t109, 2)) * t229;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t268 = mul_add(P::splat(base_rotation[0][2]), t214, t230);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t269 = mul_add(P::splat(base_rotation[1][0]), t176, t242);
+    let t270 = mul_add(P::splat(base_rotation[2][0]), t176, t243);
+    // second moment of payload and platform-side leg ends
+    let t271 = t262 + t263;
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t272 = t163 - t233;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t273 = P::splat(P::lane(t171, 2)) + t237;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t274 = mul_add(P::splat(P::lane(t115, 1)), t239, P::splat(P::lane(t125, 1)));
+    let t275 = t56 * P::splat(P::lane(t73, 0));
+    // legs 2, 4, 6: gradient of the actuator length
+    let t276 = mul_add(P::splat(base_rotation[0][2]), t201, t240);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t277 = mul_add(P::splat(base_rotation[1][2]), t214, t241);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t278 = t252 * w(0.5);
+    let t279 = t244 * mul_add(P::splat(base_rotation[0][2]), t57, t209);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t280 = mul_add(t248, t248, mul_add(t210, t210, t192 * t192));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t281 = mul_add(P::splat(P::lane(t109, 0)), t239, P::splat(P::lane(t125, 0)));
+    let t282 = t45 * P::splat(P::lane(t73, 2));
+    let t283 = neg_mul_add(P::splat(P::lane(t104, 2)), t239, P::splat(P::lane(t125, 2)));
+    let t284 = t50 * P::splat(P::lane(t73, 1));
+    let t285 = t9 * P::splat(P::lane(t211, 1));
+    // legs 1, 3, 5: gradient of the actuator length
+    let t286 = mul_add(P::splat(base_rotation[2][2]), t214, t250);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t287 = t261 * w(0.5);
+    let t288 = t251 * mul_add(P::splat(base_rotation[0][2]), t56, t218);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t289 = t244 * mul_add(P::splat(base_rotation[1][2]), t57, t219);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t290 = t170 - t254;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t291 = P::splat(P::lane(t171, 2)) + t256;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t292 = mul_add(P::splat(P::lane(t109, 0)), t258, P::splat(P::lane(t125, 0)));
+    let t293 = t48 * P::splat(P::lane(t73, 2));
+    let t294 = mul_add(P::splat(P::lane(t115, 1)), t258, P::splat(P::lane(t125, 1)));
+    let t295 = t57 * P::splat(P::lane(t73, 0));
+    let t296 = neg_mul_add(P::splat(P::lane(t104, 2)), t258, P::splat(P::lane(t125, 2)));
+    let t297 = t53 * P::splat(P::lane(t73, 1));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t298 = t244 * mul_add(P::splat(base_rotation[2][2]), t57, t226);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t299 = mul_add(t201, t273, mul_add(t176, t236, t167 * t212));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t300 = mul_sub(t50, P::splat(P::lane(t73, 2)), t275);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t301 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t302 = mul_add(P::splat(base_rotation[1][2]), t201, t269);
+    let t303 = mul_add(P::splat(base_rotation[2][2]), t201, t270);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t304 = mul_sub(t268, t278, t279);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t305 = t12 * P::splat(P::lane(t211, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t306 = t233 * w(2.0);
+    let t307 = mul_sub(t56, P::splat(P::lane(t73, 1)), t282);
+    let t308 = mul_sub(P::splat(P::lane(t109, 1)), t238, t249) + t274;
+    let t309 = mul_sub(t45, P::splat(P::lane(t73, 0)), t284);
+    let t310 = t9 * P::splat(P::lane(t211, 0));
+    let t311 = neg_mul_add(t19, P::splat(P::lane(t235, 1)), P::splat(P::lane(t126, 1)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t312 = P::splat(platform_rotation[0][1]) * t12;
+    let t313 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t314 = mul_sub(t276, t287, t288);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t315 = mul_sub(t277, t278, t289);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t316 = t251 * mul_add(P::splat(base_rotation[1][2]), t56, t246);
+    let t317 = t251 * mul_add(P::splat(base_rotation[2][2]), t56, t247);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t318 = mul_add(t214, t291, mul_add(t190, t255, t173 * t228));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t319 = mul_sub(t57, P::splat(P::lane(t73, 1)), t293);
+    let t320 = mul_sub(t53, P::splat(P::lane(t73, 2)), t295);
+    let t321 = mul_sub(t48, P::splat(P::lane(t73, 0)), t297);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t322 = t281 - mul_sub(P::splat(P::lane(t104, 0)), t238, t259);
+    let t323 = mul_add(P::splat(P::lane(t115, 2)), t238, t260) + t283;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t324 = mul_sub(t278, t286, t298);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t325 = t292 - mul_sub(P::splat(P::lane(t104, 0)), t257, t265);
+    let t326 = t254 * w(2.0);
+    let t327 = mul_sub(P::splat(P::lane(t109, 1)), t257, t266) + t294;
+    let t328 = mul_add(P::splat(P::lane(t115, 2)), t257, t267) + t296;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t329 = mul_add(P::splat(platform_rotation[2][0]), t18, t301);
+    // second moment of payload and platform-side leg ends
+    let t330 = P::triple([P::lane(t202, 2), P::lane(t271, 2), P::lane(t231, 2)]);
+    let t331 = P::triple([c(0.0), c(0.0), P::lane(t231, 1) + P::lane(t231, 0)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t332 = neg_mul_add(t121, mul_add(t272, t272, t264), t299);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t333 = t12 * P::splat(P::lane(t211, 0));
+    let t334 = neg_mul_add(t20, P::splat(P::lane(t235, 1)), P::splat(P::lane(t126, 1)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t335 = neg_mul_add(t19, P::splat(P::lane(t235, 0)), P::splat(P::lane(t126, 0)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t336 = mul_add(P::splat(platform_rotation[0][0]), t18, t312);
+    let t337 = mul_add(P::splat(platform_rotation[1][0]), t18, t313);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t338 = mul_sub(t287, t302, t316);
+    let t339 = mul_sub(t287, t303, t317);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t340 = t9 * P::splat(P::lane(t211, 2));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t341 = neg_mul_add(t131, mul_add(t290, t290, t280), t318);
+    // second moment of payload and platform-side leg ends
+    let t342 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t343 = t286 * t324;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t344 = neg_mul_add(t20, P::splat(P::lane(t235, 0)), P::splat(P::lane(t126, 0)));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t345 = P::splat(platform_rotation[0][1]) * t9;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t346 = mul_add(P::splat(platform_rotation[2][2]), t20, t329);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t347 = mul_add(t268, t324, t286 * t304);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t348 = t12 * P::splat(P::lane(t211, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t349 = neg_mul_add(t45, t332, mul_add(t300, t306, t308));
+    let t350 = t335 - mul_add(t13, P::splat(P::lane(t234, 0)), t310);
+    let t351 = t45 * (t311 - mul_add(t13, P::splat(P::lane(t234, 1)), t285));
+    let t352 = neg_mul_add(t19, P::splat(P::lane(t235, 2)), P::splat(P::lane(t126, 2)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t353 = mul_add(P::splat(platform_rotation[0][2]), t20, t336);
+    let t354 = mul_add(P::splat(platform_rotation[1][2]), t20, t337);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t355 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t356 = t268 * t304;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t357 = w(2.0) * (t276 * t314);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t358 = mul_add(t268, t315, t277 * t304);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t359 = mul_add(t276, t338, t302 * t314);
+    let t360 = mul_add(t276, t339, t303 * t314);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t361 = mul_add(t277, t324, t286 * t315);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t362 = neg_mul_add(t50, t332, mul_add(t306, t307, t322));
+    let t363 = neg_mul_add(t56, t332, mul_add(t306, t309, t323));
+    // second moment of payload and platform-side leg ends
+    let t364 = t342 + parameters.payload_inertia[2][2];
+    // constant and copied elements
+    let t365 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t335 =
+    let t366 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t336 = t235 * t273;
-    let t337 = w(2.0) * t316;
-    // acceleration per platform coordinate of points of the platform
-    let t338 = mul_sub(t119, t239, t303 * t304);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t339 = neg_mul_add(t44, t306, mul_add(t278, t287, t286));
-    let t340 = neg_mul_add(t39, t306, mul_add(t279, t287, t288));
-    let t341 = neg_mul_add(t51, t306, mul_add(t280, t287, t289));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t342 = t307 - mul_sub(P::splat(P::lane(t104, 0)), t281, t290);
-    let t343 = t274 * w(2.0);
-    let t344 = mul_sub(P::splat(P::lane(t112, 1)), t281, t291) + t309;
-    let t345 = mul_add(P::splat(P::lane(t116, 2)), t281, t292) + t311;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t346 = mul_add(P::splat(platform_rotation[0][0]), t19, t317);
-    let t347 = P::splat(platform_rotation[2][1]) * t18;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t348 = mul_sub(t299, t313, t319);
-    let t349 = mul_sub(t299, t314, t322);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t350 = mul_add(P::splat(platform_rotation[1][0]), t19, t325);
-    // second moment of payload and platform-side leg ends
-    let t351 = P::triple([P::lane(t179, 0), P::lane(t228, 1), P::lane(t295 + t296, 2)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t367 = t277 * t315;
+    let t368 = w(2.0) * t343;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t369 = neg_mul_add(t53, t341, mul_add(t319, t326, t325));
+    let t370 = neg_mul_add(t48, t341, mul_add(t320, t326, t327));
+    let t371 = neg_mul_add(t57, t341, mul_add(t321, t326, t328));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t372 = mul_add(P::splat(platform_rotation[0][0]), t13, t345);
+    let t373 = P::splat(platform_rotation[2][1]) * t9;
     // first moment of payload and platform-side leg ends
-    let t352 = mul_add(t12, t130, t19 * t121);
-    let t353 = mul_add(t9, t130, t18 * t121);
-    let t354 = mul_add(t13, t130, t20 * t121);
-    // second moment of payload and platform-side leg ends
-    let t355 = P::triple([P::lane(t179, 1), P::lane(t228, 2), P::lane(t179, 2)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t356 = w(2.0) * t336;
-    // mass matrix of the legs
-    let t357 = t323 * t326;
-    // acceleration per platform coordinate of points of the platform
-    let t358 = mul_sub(t119, t268, t303 * t327);
-    let t359 = mul_sub(t119, t269, t303 * t328);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t360 = neg_mul_add(t144, mul_add(t302, t302, t301), t329);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t361 = mul_add(P::splat(platform_rotation[2][0]), t19, t347);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t362 = mul_add(t226, t273, t235 * t266);
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t363 = t205 * t339;
-    let t364 = t205 * t340;
-    let t365 = t205 * t341;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t366 = mul_add(P::splat(platform_rotation[0][2]), t20, t346);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t367 = t226 * t266;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t368 = mul_add(t294, t349, t314 * t320);
-    // mass matrix of the legs
-    let t369 = mul_sub(t323, t337, t318 * t321);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t370 = mul_add(P::splat(platform_rotation[1][2]), t20, t350);
+    let t374 = mul_add(t18, t135, t13 * t129);
+    let t375 = mul_add(t12, t135, t9 * t129);
+    let t376 = mul_add(t20, t135, t19 * t129);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t377 = t344 - mul_add(t18, P::splat(P::lane(t234, 0)), t333);
+    let t378 = t48 * (t334 - mul_add(t18, P::splat(P::lane(t234, 1)), t305));
+    let t379 = neg_mul_add(t20, P::splat(P::lane(t235, 2)), P::splat(P::lane(t126, 2)));
     // constant and copied elements
-    let t371 =
+    let t380 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t381 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t382 = mul_add(P::splat(platform_rotation[1][0]), t13, t355);
+    // second moment of payload and platform-side leg ends
+    let t383 = P::triple([P::lane(t202, 0), P::lane(t271, 1), P::lane(t330 + t331, 2)]);
+    // mass matrix of the legs
+    let t384 = mul_add(w(2.0), t356, t357);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t385 = t352 - mul_add(t13, P::splat(P::lane(t234, 2)), t340);
+    // second moment of payload and platform-side leg ends
+    let t386 = P::triple([P::lane(t202, 1), P::lane(t271, 2), P::lane(t202, 2)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t387 = w(2.0) * t367;
+    // mass matrix of the legs
+    let t388 = t358 + t359;
+    let t389 = t347 + t360;
+    let t390 = t353 * t361;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t391 = t251 * t362;
+    let t392 = t251 * t349;
+    let t393 = t251 * t363;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t394 = mul_add(P::splat(platform_rotation[2][0]), t13, t373);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t395 = t244 * t369;
+    let t396 = t244 * t370;
+    let t397 = t244 * t371;
+    // constant and copied elements
+    let t398 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t399 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t400 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t401 = mul_add(P::splat(platform_rotation[0][2]), t19, t372);
+    // mass of payload and platform-side leg ends
+    let t402 = t129 + t135;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t403 = mul_add(t302, t339, t303 * t338);
+    // mass matrix of the legs
+    let t404 = mul_sub(t353, t368, t346 * t347);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t405 = t379 - mul_add(t18, P::splat(P::lane(t234, 2)), t348);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t406 = mul_add(t56, t385, mul_add(t50, t350, t351));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t407 = mul_add(t189 - t380, t400, t233 * t381);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t408 = mul_add(P::splat(platform_rotation[1][2]), t19, t382);
+    // constant and copied elements
+    let t409 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t372 =
+    let t410 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
     // mass matrix of the legs
-    let t373 = mul_sub(t321, t324, t357);
-    let t374 = mul_sub(t318, t326, t324 * t337);
+    let t411 = mul_sub(t347, t354, t390);
+    let t412 = mul_sub(t346, t361, t354 * t368);
+    // inertia force less weight, without the actuators' own shares
+    let t413 = mul_add(t244, t369, t391);
+    let t414 = mul_add(t244, t370, t392);
+    let t415 = mul_add(t244, t371, t393);
     // second moment of payload and platform-side leg ends
-    let t375 = mul_add(w(0.5), P::splat(t333), t351) - t372;
+    let t416 = mul_add(w(0.5), P::splat(t364), t383) - t410;
     // constant and copied elements
-    let t376 =
+    let t417 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t377 = w(2.0) * (t294 * t320);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t378 = neg_mul_add(t54, t360, mul_add(t330, t343, t342));
-    let t379 = neg_mul_add(t52, t360, mul_add(t331, t343, t344));
-    let t380 = neg_mul_add(t56, t360, mul_add(t332, t343, t345));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t381 = mul_add(P::splat(platform_rotation[2][2]), t20, t361);
-    // second moment of payload and platform-side leg ends
-    let t382 = mul_add(t334 * t335, P::splat(parameters.payload_mass), t355) - t376;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t383 = w(2.0) * t367;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t384 = mul_add(t313, t320, t294 * t348);
-    // mass matrix of the legs
-    let t385 = mul_sub(t318, t362, t357);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t386 = t18 * P::splat(P::lane(t338, 1));
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t387 = mul_add(t313, t349, t314 * t348);
-    // mass matrix of the legs
-    let t388 = t366 * t368;
-    let t389 = mul_sub(t318, t356, t324 * t326);
-    let t390 = mul_sub(t324, t362, t323 * t356);
-    // second moment of payload and platform-side leg ends
-    let t391 = mul_add(P::splat(parameters.payload_mass), t371 * t371, t375);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t392 = mul_sub(t33, t365, t37 * t364);
-    let t393 = mul_sub(t37, t363, t32 * t365);
-    let t394 = mul_sub(t32, t364, t33 * t363);
-    // first moment of payload and platform-side leg ends
-    let t395 = P::triple([P::lane(t352, 0), P::lane(t353, 0), P::lane(t354, 0)]);
-    let t396 = P::triple([P::lane(t352, 1), P::lane(t353, 1), P::lane(t354, 1)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t397 = w(2.0) * (t314 * t349);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t398 = t9 * P::splat(P::lane(t338, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t399 = t18 * P::splat(P::lane(t338, 0));
-    let t400 = neg_mul_add(t20, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t401 = t264 * t378;
-    let t402 = t264 * t379;
-    let t403 = t264 * t380;
-    // mass matrix of the legs
-    let t404 = mul_sub(t381, t384, t388);
-    let t405 = mul_sub(t377, t381, t368 * t370);
-    let t406 = mul_sub(t370, t384, t366 * t377);
-    // first moments by platform coordinate of the payload's inertia force
-    let t407 = t338 * P::splat(P::lane(t382, 0));
-    // first moment of payload and platform-side leg ends
-    let t408 = P::triple([P::lane(t352, 2), P::lane(t353, 2), P::lane(t354, 2)]);
-    // mass matrix of the legs
-    let t409 = mul_sub(t321, t323, t318 * t383);
-    let t410 = mul_sub(t324, t383, t323 * t362);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t411 = t9 * P::splat(P::lane(t338, 0));
-    let t412 = neg_mul_add(t13, P::splat(P::lane(t359, 1)), P::splat(P::lane(t127, 1)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t413 = neg_mul_add(t20, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
-    let t414 = t18 * P::splat(P::lane(t338, 2));
-    // mass matrix of the legs
-    let t415 = mul_add(t381, t404, mul_add(t318, t385, t324 * t369));
-    let t416 = mul_sub(t366, t397, t381 * t387);
-    // first moments by platform coordinate of the payload's inertia force
-    let t417 = mul_add(t358, P::splat(P::lane(t391, 0)), t407);
-    // mass matrix of the legs
-    let t418 = mul_sub(t370, t387, t388);
-    let t419 = mul_add(t381, t405, mul_sub(t318, t389, t324 * t374));
-    let t420 = mul_sub(t368, t381, t370 * t397);
-    let t421 = mul_add(t381, t406, mul_sub(t318, t390, t324 * t373));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t422 = neg_mul_add(t13, P::splat(P::lane(t359, 0)), P::splat(P::lane(t127, 0)));
-    // first moment of payload and platform-side leg ends
-    let t423 = mul_add(P::splat(parameters.payload_mass), t371, t395 + t396 + t408);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t424 = t9 * P::splat(P::lane(t338, 2));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t425 = t413 - mul_add(t19, P::splat(P::lane(t358, 0)), t399);
-    let t426 = t52 * (t400 - mul_add(t19, P::splat(P::lane(t358, 1)), t386));
-    let t427 = neg_mul_add(t20, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t428 = neg_mul_add(t47, t402, mul_add(t36, t403, t392));
-    let t429 = neg_mul_add(t40, t403, mul_add(t47, t401, t393));
-    let t430 = neg_mul_add(t36, t401, mul_add(t40, t402, t394));
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t431 = w(2.0) * (t313 * t348);
-    // mass matrix of the legs
-    let t432 = mul_add(t370, t416, t415);
-    // first moments by platform coordinate of the payload's inertia force
-    let t433 = mul_add(t359, P::splat(P::lane(t382, 2)), t417);
-    // mass matrix of the legs
-    let t434 = neg_mul_add(t370, t420, t419);
-    let t435 = neg_mul_add(t370, t418, t421);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t436 = t422 - mul_add(t12, P::splat(P::lane(t358, 0)), t411);
-    let t437 = t39 * (t412 - mul_add(t12, P::splat(P::lane(t358, 1)), t398));
-    let t438 = neg_mul_add(t13, P::splat(P::lane(t359, 2)), P::splat(P::lane(t127, 2)));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t418 = w(2.0) * (t302 * t338);
     // constant and copied elements
-    let t439 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t440 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t441 = t338 * P::splat(P::lane(t391, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t442 = t427 - mul_add(t19, P::splat(P::lane(t358, 2)), t414);
+    let t419 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t420 = mul_add(P::splat(platform_rotation[2][2]), t19, t394);
+    // second moment of payload and platform-side leg ends
+    let t421 = mul_add(t365 * t366, P::splat(parameters.payload_mass), t386) - t417;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t422 = w(2.0) * t356;
     // mass matrix of the legs
-    let t443 = mul_add(w(2.0), t367, t431);
-    let t444 = t362 + t384;
-    let t445 = t321 + t387;
+    let t423 = mul_sub(t346, t358, t390);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t424 = mul_add(t57, t405, mul_add(t53, t377, t378));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t425 = mul_add(t200 - t398, t419, t254 * t399);
+    // first moment of payload and platform-side leg ends
+    let t426 = P::triple([P::lane(t374, 0), P::lane(t375, 0), P::lane(t376, 0)]);
+    let t427 = P::triple([P::lane(t374, 1), P::lane(t375, 1), P::lane(t376, 1)]);
+    // mass matrix of the legs
+    let t428 = t401 * t403;
+    let t429 = mul_sub(t346, t387, t354 * t361);
+    let t430 = mul_sub(t354, t358, t353 * t387);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t431 = mul_add(t56, t363, mul_add(t50, t362, t45 * t349));
+    let t432 = mul_add(t309, t309, mul_add(t307, t307, t300 * t300));
+    // second moment of payload and platform-side leg ends
+    let t433 = mul_add(P::splat(parameters.payload_mass), t409 * t409, t416);
+    // mass matrix of the legs
+    let t434 = mul_add(w(2.0), t367, t418);
+    let t435 = P::triple([P::lane(t384, 0), P::lane(t388, 0), P::lane(t389, 0)]);
+    let t436 = P::triple([P::lane(t384, 1), P::lane(t388, 1), P::lane(t389, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t437 = mul_sub(t35, t397, t41 * t396);
+    let t438 = mul_sub(t41, t395, t37 * t397);
+    let t439 = mul_sub(t37, t396, t35 * t395);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t440 = w(2.0) * (t303 * t339);
+    // mass matrix of the legs
+    let t441 = t361 + t403;
+    // first moment of payload and platform-side leg ends
+    let t442 = P::triple([P::lane(t374, 2), P::lane(t375, 2), P::lane(t376, 2)]);
+    // mass matrix of the legs
+    let t443 = mul_sub(t359, t420, t428);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t444 = mul_add(t57, t371, mul_add(t53, t369, t48 * t370));
+    let t445 = mul_add(t321, t321, mul_add(t319, t319, t320 * t320));
     // constant and copied elements
     let t446 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t447 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t448 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t449 = mul_sub(t127, P::splat(P::lane(t423, 0)), t433);
-    let t450 = mul_add(t358, P::splat(P::lane(t382, 0)), t441);
+        P::triple([parameters.mover_offset[1], parameters.mover_offset[3], parameters.mover_offset[5]]);
     // mass matrix of the legs
-    let t451 = mul_add(t366, t416, mul_sub(t323, t369, t318 * t409));
-    let t452 = mul_sub(t366, t387, t381 * t431);
-    let t453 = mul_add(t366, t418, mul_sub(t323, t373, t318 * t410));
-    let t454 = mul_sub(t370, t431, t366 * t384);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t455 = t438 - mul_add(t12, P::splat(P::lane(t358, 2)), t424);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t456 = mul_add(t56, t442, mul_add(t54, t425, t426));
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t457 = mul_add(t220 - t439, t448, t274 * t440);
-    // mass of payload and platform-side leg ends
-    let t458 = t121 + t130;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t459 = P::triple([P::lane(t428, 0), P::lane(t429, 0), P::lane(t430, 0)]);
-    let t460 = P::triple([P::lane(t428, 1), P::lane(t429, 1), P::lane(t430, 1)]);
-    // constant and copied elements
-    let t461 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t447 = mul_sub(t418, t420, t403 * t408);
+    let t448 = mul_sub(t359, t408, t401 * t418);
+    let t449 = P::triple([P::lane(t384, 2), P::lane(t388, 2), P::lane(t389, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t450 = mul_add(t432, t446, t431);
+    // first moments by platform coordinate of the payload's inertia force
+    let t451 = t211 * P::splat(P::lane(t421, 0));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t452 = mul_add(t225, t431, mul_add(t251, t406, t407));
+    // mass matrix of the legs
+    let t453 = mul_sub(t347, t353, t346 * t422);
+    let t454 = mul_sub(t354, t422, t353 * t358);
+    let t455 = t435 + t436 + t449;
     // inertia force less weight, without the actuators' own shares
-    let t462 = mul_add(t205, t339, t401);
-    let t463 = mul_add(t205, t340, t402);
-    let t464 = mul_add(t205, t341, t403);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t465 = mul_add(t51, t455, mul_add(t44, t436, t437));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t466 = mul_add(t178 - t446, t461, t214 * t447);
-    // first moments by platform coordinate of the payload's inertia force
-    let t467 = mul_add(t359, P::splat(P::lane(t382, 1)), t450);
-    // mass matrix of the legs
-    let t468 = neg_mul_add(t381, t452, t451);
-    let t469 = neg_mul_add(t381, t454, t453);
-    let t470 = P::triple([P::lane(t434, 0), -P::lane(t432, 0), P::lane(t435, 0)]);
-    let t471 = P::triple([P::lane(t434, 1), -P::lane(t432, 1), P::lane(t435, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t472 = mul_add(t56, t380, mul_add(t54, t378, t52 * t379));
-    let t473 = mul_add(t332, t332, mul_add(t330, t330, t331 * t331));
-    // first moments by platform coordinate of the payload's inertia force
-    let t474 = t338 * P::splat(P::lane(t382, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t475 = P::triple([P::lane(t428, 2), P::lane(t429, 2), P::lane(t430, 2)]);
-    let t476 = t459 + t460 + t475;
-    // mass matrix of the legs
-    let t477 = mul_add(w(2.0), t336, t377);
-    let t478 = P::triple([P::lane(t443, 0), P::lane(t444, 0), P::lane(t445, 0)]);
-    let t479 = P::triple([P::lane(t443, 1), P::lane(t444, 1), P::lane(t445, 1)]);
-    // mass matrix M_p of the platform
-    let t480 = t389 + t405;
+    let t456 = P::triple([P::lane(t413, 0), P::lane(t414, 0), P::lane(t415, 0)]);
+    let t457 = P::triple([P::lane(t413, 1), P::lane(t414, 1), P::lane(t415, 1)]);
+    // mass of payload and platform-side leg ends
+    let t458 = P::lane(t402, 2) + (P::lane(t402, 1) + P::lane(t402, 0));
     // constant and copied elements
-    let t481 =
+    let t459 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[2], parameters.mover_offset[4]]);
+    // first moment of payload and platform-side leg ends
+    let t460 = mul_add(P::splat(parameters.payload_mass), t409, t426 + t427 + t442);
+    // mass matrix of the legs
+    let t461 = mul_add(t420, t443, mul_add(t346, t423, t354 * t404));
+    let t462 = mul_sub(t401, t440, t360 * t420);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t463 = mul_add(t445, t459, t444);
+    // first moments by platform coordinate of the payload's inertia force
+    let t464 = mul_add(t234, P::splat(P::lane(t433, 0)), t451);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t465 = mul_add(t217, t444, mul_add(t244, t424, t425));
+    // mass matrix of the legs
+    let t466 = mul_sub(t360, t408, t428);
+    let t467 = mul_add(t420, t447, mul_sub(t346, t429, t354 * t412));
+    let t468 = mul_sub(t403, t420, t408 * t440);
+    let t469 = mul_add(t420, t448, mul_sub(t346, t430, t354 * t411));
+    // inertia force less weight, without the actuators' own shares
+    let t470 = P::triple([P::lane(t413, 2), P::lane(t414, 2), P::lane(t415, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t471 = mul_add(t253, t450, t452);
+    // mass matrix of the legs
+    let t472 = mul_add(w(2.0), t343, t440);
+    let t473 = P::lane(t441, 1) + P::lane(t441, 0);
+    // mass of payload and platform-side leg ends
+    let t474 = parameters.payload_mass + t458;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t475 = neg_mul_add(t39, t392, mul_add(t34, t393, t437));
+    let t476 = neg_mul_add(t36, t393, mul_add(t39, t391, t438));
+    let t477 = neg_mul_add(t34, t391, mul_add(t36, t392, t439));
+    // mass matrix of the legs
+    let t478 = mul_add(t359, t420, mul_sub(t346, t358, t347 * t354));
+    let t479 = mul_add(t408, t462, t461);
+    // first moments by platform coordinate of the payload's inertia force
+    let t480 = mul_add(t235, P::splat(P::lane(t421, 2)), t464);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t481 = mul_add(t245, t463, t465);
+    // mass matrix of the legs
+    let t482 = neg_mul_add(t408, t468, t467);
+    let t483 = neg_mul_add(t408, t466, t469);
+    let t484 = P::triple([P::lane(t455, 1), P::lane(t434, 2), P::lane(t441, 2)]);
+    let t485 = P::triple([c(0.0), P::lane(t434, 1) + P::lane(t434, 0), t473]);
+    // inertia force less weight, without the actuators' own shares
+    let t486 = mul_add(t126, P::splat(t474), t456 + t457 + t470);
+    // first moments by platform coordinate of the payload's inertia force
+    let t487 = t211 * P::splat(P::lane(t433, 1));
+    // mass matrix of the legs
+    let t488 = mul_sub(t357, t408, t359 * t401);
+    let t489 = t484 + t485;
+    // mass matrix M_p of the platform
+    let t490 = t429 + t447;
+    // mass matrix of the legs
+    let t491 = mul_sub(t360, t401, t357 * t420);
+    // mass matrix M_p of the platform
+    let t492 = t412 + t468;
+    // mass matrix of the legs
+    let t493 = neg_mul_add(t360, t408, t478);
+    // first moments by platform coordinate of the payload's inertia force
+    let t494 = mul_sub(t126, P::splat(P::lane(t460, 0)), t480);
+    let t495 = mul_add(t234, P::splat(P::lane(t421, 0)), t487);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t496 = mul_add(t268, t481, t276 * t471);
+    let t497 = mul_add(t277, t481, t302 * t471);
+    let t498 = mul_add(t286, t481, t303 * t471);
+    // mass matrix M_p of the platform
+    let t499 = platform_rotation[2][1] * P::lane(t460, 1);
+    // mass matrix of the legs
+    let t500 = mul_add(t401, t462, mul_sub(t353, t404, t346 * t453));
+    let t501 = mul_add(t401, t466, mul_sub(t353, t411, t346 * t454));
+    // mass matrix M_p of the platform
+    let t502 = P::triple([c(0.0), t474, c(0.0)]);
+    // inertia force less weight, without the actuators' own shares
+    let t503 = mul_sub(t234, P::splat(P::lane(t460, 0)), t486);
+    // mass matrix M_p of the platform
+    let t504 = platform_rotation[1][1] * P::lane(t460, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t505 = P::triple([P::lane(t286, 2), P::lane(t286, 0), P::lane(t286, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t506 = P::triple([P::lane(t268, 1), P::lane(t268, 2), P::lane(t268, 0)]);
+    // mass matrix M_p of the platform
+    let t507 = t454 + t488;
+    let t508 = t404 + t462;
+    // mass matrix of the legs
+    let t509 = t489 + t502;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t510 = P::triple([P::lane(t475, 0), P::lane(t476, 0), P::lane(t477, 0)]);
+    let t511 = P::triple([P::lane(t475, 1), P::lane(t476, 1), P::lane(t477, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t512 = P::triple([P::lane(t286, 1), P::lane(t286, 2), P::lane(t286, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t513 = P::triple([P::lane(t277, 2), P::lane(t277, 0), P::lane(t277, 1)]);
+    // mass matrix M_p of the platform
+    let t514 = t453 + t491;
+    let t515 = t430 + t448;
+    let t516 = P::mul_add(platform_rotation[2][0], P::lane(t460, 0), t499);
+    // mass of payload and platform-side leg ends
+    let t517 = P::triple([t474, c(0.0), c(0.0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t518 = mul_add(t235, P::splat(P::lane(t421, 1)), t495);
+    // mass matrix M_p of the platform
+    let t519 = P::mul_add(platform_rotation[1][0], P::lane(t460, 0), t504);
+    let t520 = platform_rotation[0][1] * P::lane(t460, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t521 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
+    // mass matrix of the legs
+    let t522 = t411 + t466;
+    let t523 = neg_mul_add(t420, t491, t500);
+    let t524 = neg_mul_add(t420, t488, t501);
+    let t525 = P::triple([P::lane(t455, 2), P::lane(t489, 2), P::lane(t472, 2)]);
+    let t526 = P::triple([c(0.0), c(0.0), P::lane(t472, 1) + P::lane(t472, 0)]);
+    let t527 = P::triple([P::lane(t482, 0), -P::lane(t479, 0), P::lane(t483, 0)]);
+    let t528 = P::triple([P::lane(t482, 1), -P::lane(t479, 1), P::lane(t483, 1)]);
+    // mass matrix M_p of the platform
+    let t529 = t455 + t517;
+    // inertia force less weight, without the actuators' own shares
+    let t530 = mul_add(t211, P::splat(P::lane(t460, 1)), t503);
+    // first moments by platform coordinate of the payload's inertia force
+    let t531 = t211 * P::splat(P::lane(t421, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t532 = P::triple([P::lane(t475, 2), P::lane(t476, 2), P::lane(t477, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t533 = t509 * P::splat(platform_acceleration[1]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t534 = P::triple([P::lane(t277, 1), P::lane(t277, 2), P::lane(t277, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t535 = mul_sub(t512, t521, t505 * t506);
+    // mass matrix of the legs
+    let t536 = t423 + t443;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t537 = t510 + t511 + t532;
+    // force along the actuator that balances the remaining wrench
+    let t538 = mul_sub(t505, t534, t512 * t513);
+    // mass matrix M_p of the platform
+    let t539 = P::mul_add(platform_rotation[2][2], P::lane(t460, 2), t516);
+    let t540 = P::mul_add(platform_rotation[0][0], P::lane(t460, 0), t520);
+    // constant and copied elements
+    let t541 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t482 = mul_add(t381, t384, mul_sub(t318, t362, t321 * t324));
-    let t483 = t326 + t368;
-    let t484 = P::triple([P::lane(t434, 2), -P::lane(t432, 2), P::lane(t435, 2)]);
-    // mass matrix M_p of the platform
-    let t485 = t390 + t406;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t486 = mul_add(t51, t341, mul_add(t44, t339, t39 * t340));
-    let t487 = mul_add(t280, t280, mul_add(t278, t278, t279 * t279));
-    // constant and copied elements
-    let t488 =
-        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    let t542 = P::triple([P::lane(t482, 2), -P::lane(t479, 2), P::lane(t483, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t489 = mul_sub(t127, P::splat(P::lane(t423, 1)), t467);
-    let t490 = mul_add(t358, P::splat(P::lane(t382, 2)), t474);
-    let t491 = P::triple([P::lane(t449, 2), P::lane(t449, 0), P::lane(t449, 1)]);
+    let t543 = mul_sub(t126, P::splat(P::lane(t460, 1)), t518);
+    let t544 = mul_add(t234, P::splat(P::lane(t421, 2)), t531);
+    let t545 = P::triple([P::lane(t494, 2), P::lane(t494, 0), P::lane(t494, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t546 = P::triple([P::lane(t496, 0), P::lane(t497, 0), P::lane(t498, 0)]);
+    let t547 = P::triple([P::lane(t496, 1), P::lane(t497, 1), P::lane(t498, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t492 = P::splat(parameters.payload_com[1]) * t481;
-    // mass matrix of the legs
-    let t493 = mul_add(t370, t454, mul_sub(t324, t410, t323 * t390));
-    let t494 = t470 + t471 + t484;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t495 = mul_add(t473, t488, t472);
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t496 = mul_add(t236, t472, mul_add(t264, t456, t457));
+    let t548 = mul_add(t529, P::splat(platform_acceleration[0]), t533);
     // mass matrix M_p of the platform
-    let t497 = platform_rotation[2][1] * P::lane(t423, 1);
+    let t549 = P::mul_add(platform_rotation[1][2], P::lane(t460, 2), t519);
+    // inertia less external wrench that the actuators must balance
+    let t550 = P::splat(parameters.payload_com[1]) * t541;
     // mass matrix of the legs
-    let t498 = P::triple([P::lane(t443, 2), P::lane(t444, 2), P::lane(t445, 2)]);
-    // mass matrix M_p of the platform
-    let t499 = t410 + t454;
-    let t500 = t369 + t416;
-    let t501 = platform_rotation[0][1] * P::lane(t423, 1);
-    // constant and copied elements
-    let t502 =
-        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
-    // mass matrix of the legs
-    let t503 = t385 + t404;
-    let t504 = t478 + t479 + t498;
-    // mass matrix M_p of the platform
-    let t505 = t409 + t452;
-    let t506 = t374 + t420;
-    // constant and copied elements
-    let t507 =
-        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    let t551 = mul_add(t408, t488, mul_sub(t354, t454, t353 * t430));
+    let t552 = t527 + t528 + t542;
+    let t553 = t525 + t526 + P::triple([c(0.0), c(0.0), t474]);
     // inertia force less weight, without the actuators' own shares
-    let t508 = P::triple([P::lane(t462, 0), P::lane(t463, 0), P::lane(t464, 0)]);
-    let t509 = P::triple([P::lane(t462, 1), P::lane(t463, 1), P::lane(t464, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t510 = mul_add(P::splat(parameters.payload_com[0]), t502, t492);
-    // mass matrix of the legs
-    let t511 = neg_mul_add(t370, t387, t482);
-    // mass of payload and platform-side leg ends
-    let t512 = P::lane(t458, 2) + (P::lane(t458, 1) + P::lane(t458, 0));
-    // mass matrix M_p of the platform
-    let t513 = platform_rotation[0][1] * P::lane(t382, 0);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t514 = mul_add(t487, t507, t486);
-    // first moments by platform coordinate of the payload's inertia force
-    let t515 = mul_add(t359, P::splat(P::lane(t391, 2)), t490);
-    // rotation of the platform seen from the base
-    let t516 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t517 = P::triple([P::lane(t449, 1), P::lane(t449, 2), P::lane(t449, 0)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t518 = mul_add(t189, t486, mul_add(t205, t465, t466));
-    // mass matrix M_p of the platform
-    let t519 = P::mul_add(platform_rotation[2][0], P::lane(t423, 0), t497);
-    let t520 = platform_rotation[1][1] * P::lane(t423, 1);
-    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t521 = mul_sub(t314, t370, t294 * t381);
-    let t522 = mul_sub(t313, t381, t314 * t366);
-    let t523 = mul_sub(t294, t366, t313 * t370);
-    // mass matrix of the legs
-    let t524 = t373 + t418;
-    let t525 = neg_mul_add(t366, t406, t493);
-    let t526 = P::lane(t469, 1) + P::lane(t469, 0);
-    // moment of the inertia force about the platform origin
-    let t527 = neg_mul_add(t516, t517, mul_add(t261, t491, t476));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t528 = mul_add(t265, t495, t496);
-    // mass matrix M_p of the platform
-    let t529 = P::mul_add(platform_rotation[0][0], P::lane(t423, 0), t501);
-    // inertia force less weight, without the actuators' own shares
-    let t530 = P::triple([P::lane(t462, 2), P::lane(t463, 2), P::lane(t464, 2)]);
-    // constant and copied elements
-    let t531 =
-        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
-    // mass matrix of the legs
-    let t532 = mul_add(w(2.0), t316, t397);
-    let t533 = P::lane(t483, 1) + P::lane(t483, 0);
-    // mass of payload and platform-side leg ends
-    let t534 = parameters.payload_mass + t512;
-    // mass matrix M_p of the platform
-    let t535 = P::mul_add(platform_rotation[0][0], P::lane(t391, 0), t513);
-    // constant and copied elements
-    let t536 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // mass matrix M_p of the platform
-    let t537 = P::mul_add(platform_rotation[1][0], P::lane(t423, 0), t520);
-    // inertia less external wrench that the actuators must balance
-    let t538 = mul_add(P::splat(parameters.payload_com[2]), t531, t510);
-    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t539 = mul_sub(t243, t324, t235 * t318);
-    let t540 = mul_sub(t226, t318, t243 * t323);
-    let t541 = mul_sub(t235, t323, t226 * t324);
-    // mass matrix of the legs
-    let t542 = P::triple([P::lane(t494, 1), P::lane(t468, 2), P::lane(t469, 2)]);
-    let t543 = P::triple([c(0.0), P::lane(t468, 1) + P::lane(t468, 0), t526]);
-    // mass matrix M_p of the platform
-    let t544 = P::lane(t391, 2) + (P::lane(t391, 0) + P::lane(t391, 1));
-    let t545 = platform_rotation[0][1] * P::lane(t391, 1);
-    let t546 = P::splat(P::lane(t382, 0)) * t536;
-    // first moments by platform coordinate of the payload's inertia force
-    let t547 = mul_sub(t127, P::splat(P::lane(t423, 2)), t515);
-    let t548 = P::triple([P::lane(t489, 2), P::lane(t489, 0), P::lane(t489, 1)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t549 = mul_add(t206, t514, t518);
-    // mass matrix M_p of the platform
-    let t550 = P::mul_add(platform_rotation[2][2], P::lane(t423, 2), t519);
-    // mass matrix of the legs
-    let t551 = t542 + t543;
-    // mass matrix M_p of the platform
-    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t423, 2), t529);
-    // mass matrix of the legs
-    let t553 = P::triple([P::lane(t504, 1), P::lane(t477, 2), P::lane(t483, 2)]);
-    let t554 = P::triple([c(0.0), P::lane(t477, 1) + P::lane(t477, 0), t533]);
+    let t554 = mul_add(t235, P::splat(P::lane(t460, 2)), t530);
     // constant and copied elements
     let t555 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t556 = mul_add(t127, P::splat(t534), t508 + t509 + t530);
-    // mass matrix of the legs
-    let t557 = t553 + t554;
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t556 = P::triple([P::lane(t496, 2), P::lane(t497, 2), P::lane(t498, 2)]);
     // mass matrix M_p of the platform
-    let t558 = P::mul_add(platform_rotation[0][2], P::lane(t382, 2), t535);
+    let t557 = P::mul_add(platform_rotation[0][2], P::lane(t460, 2), t540);
+    // inertia less external wrench that the actuators must balance
+    let t558 = mul_add(P::splat(parameters.payload_com[0]), t555, t550);
+    // force along the actuator that balances the remaining wrench
+    let t559 = t302 * P::splat(P::lane(t535, 0));
+    // mass matrix M_p of the platform
+    let t560 = platform_rotation[0][1] * P::lane(t421, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t561 = mul_add(t235, P::splat(P::lane(t433, 2)), t544);
+    // rotation of the platform seen from the base
+    let t562 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t563 = P::triple([P::lane(t494, 1), P::lane(t494, 2), P::lane(t494, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t564 = mul_add(t553, P::splat(platform_acceleration[2]), t548);
+    // mass matrix M_p of the platform
+    let t565 = t549 - (P::lane(t492, 2) + (P::lane(t492, 1) + P::lane(t492, 0)));
+    mass_matrix_p[2][3] = t565;
+    mass_matrix_p[3][2] = t565;
+    // force along the actuator that balances the remaining wrench
+    let t566 = mul_sub(t506, t513, t521 * t534);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t567 = mul_sub(t303, t408, t302 * t420);
+    let t568 = mul_sub(t276, t420, t303 * t401);
+    let t569 = mul_sub(t302, t401, t276 * t408);
+    // mass matrix of the legs
+    let t570 = neg_mul_add(t401, t448, t551);
+    let t571 = P::lane(t524, 1) + P::lane(t524, 0);
+    // moment of the inertia force about the platform origin
+    let t572 = neg_mul_add(t562, t563, mul_add(t158, t545, t537));
     // constant and copied elements
-    let t559 =
+    let t573 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t574 = -(P::lane(t493, 2) + (P::lane(t493, 1) + P::lane(t493, 0)));
+    mass_matrix_p[0][3] = t574;
+    mass_matrix_p[3][0] = t574;
+    // mass matrix M_p of the platform
+    let t575 = -(t539 + (P::lane(t490, 2) + (P::lane(t490, 1) + P::lane(t490, 0))));
+    mass_matrix_p[1][3] = t575;
+    mass_matrix_p[3][1] = t575;
+    // constant and copied elements
+    let t576 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t577 = mul_add(t276, P::splat(P::lane(t538, 0)), t559);
+    let t578 = P::lane(t268, 1) * P::lane(t538, 1);
+    // mass matrix M_p of the platform
+    let t579 = P::mul_add(platform_rotation[0][0], P::lane(t433, 0), t560);
+    // constant and copied elements
+    let t580 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t581 = mul_add(P::splat(P::lane(t554, 0)), t573, t546 + t547 + t556);
+    // mass matrix of the legs
+    let t582 = P::triple([t574, t575, t565]);
+    // inertia less external wrench that the actuators must balance
+    let t583 = mul_add(P::splat(parameters.payload_com[2]), t576, t558);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t584 = mul_sub(t286, t354, t277 * t346);
+    let t585 = mul_sub(t268, t346, t286 * t353);
+    let t586 = mul_sub(t277, t353, t268 * t354);
+    // mass matrix of the legs
+    let t587 = P::triple([P::lane(t552, 1), P::lane(t523, 2), P::lane(t524, 2)]);
+    let t588 = P::triple([c(0.0), P::lane(t523, 1) + P::lane(t523, 0), t571]);
+    // mass matrix M_p of the platform
+    let t589 = P::lane(t433, 2) + (P::lane(t433, 0) + P::lane(t433, 1));
+    let t590 = platform_rotation[0][1] * P::lane(t433, 1);
+    let t591 = P::splat(P::lane(t421, 0)) * t580;
+    // first moments by platform coordinate of the payload's inertia force
+    let t592 = mul_sub(t126, P::splat(P::lane(t460, 2)), t561);
+    let t593 = P::triple([P::lane(t543, 2), P::lane(t543, 0), P::lane(t543, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t594 = mul_add(t582, P::splat(platform_acceleration[3]), t564);
+    // mass matrix M_p of the platform
+    let t595 = t539 - (P::lane(t514, 2) + (P::lane(t514, 1) + P::lane(t514, 0)));
+    mass_matrix_p[0][4] = t595;
+    mass_matrix_p[4][0] = t595;
+    // mass matrix of the legs
+    let t596 = P::lane(t536, 2) + (P::lane(t536, 1) + P::lane(t536, 0));
+    mass_matrix_p[1][4] = t596;
+    mass_matrix_p[4][1] = t596;
+    // mass matrix M_p of the platform
+    let t597 = t557 - (P::lane(t515, 2) + (P::lane(t515, 1) + P::lane(t515, 0)));
+    mass_matrix_p[1][5] = t597;
+    mass_matrix_p[5][1] = t597;
+    // mass matrix of the legs
+    let t598 = t587 + t588;
+    // force along the actuator that balances the remaining wrench
+    let t599 = P::mul_add(P::lane(t268, 0), P::lane(t538, 0), t578);
+    // constant and copied elements
+    let t600 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t601 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t602 = -(t557 + (P::lane(t508, 2) + (P::lane(t508, 1) + P::lane(t508, 0))));
+    mass_matrix_p[2][4] = t602;
+    mass_matrix_p[4][2] = t602;
+    let t603 = -(t549 + (P::lane(t507, 2) + (P::lane(t507, 1) + P::lane(t507, 0))));
+    mass_matrix_p[0][5] = t603;
+    mass_matrix_p[5][0] = t603;
+    // mass matrix of the legs
+    let t604 = -(P::lane(t522, 2) + (P::lane(t522, 1) + P::lane(t522, 0)));
+    mass_matrix_p[2][5] = t604;
+    mass_matrix_p[5][2] = t604;
+    // force along the actuator that balances the remaining wrench
+    let t605 = mul_add(t303, P::splat(P::lane(t566, 0)), t577);
+    let t606 = t302 * P::splat(P::lane(t535, 1));
+    // mass matrix M_p of the platform
+    let t607 = P::mul_add(platform_rotation[0][2], P::lane(t421, 2), t579);
+    // constant and copied elements
+    let t608 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t560 = P::mul_add(platform_rotation[0][0], P::lane(t382, 0), t545);
-    let t561 = mul_add(P::splat(P::lane(t391, 0)), t555, t546);
-    let t562 = P::mul_add(platform_rotation[1][2], P::lane(t423, 2), t537);
-    // constant and copied elements
-    let t563 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t564 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    let t609 = P::mul_add(platform_rotation[0][0], P::lane(t421, 0), t590);
+    let t610 = mul_add(P::splat(P::lane(t433, 0)), t600, t591);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t611 = mul_add(P::splat(P::lane(t554, 1)), t601, t581);
     // mass matrix M_p of the platform
-    let t565 = t494 + P::triple([t544, c(0.0), c(0.0)]);
-    let t566 = platform_rotation[0][1] * P::lane(t382, 1);
-    let t567 = P::splat(P::lane(t391, 1)) * t536;
-    let t568 = P::splat(P::lane(t382, 0)) * t559;
+    let t612 = P::triple([t595, t596, t602]);
+    let t613 = P::triple([t603, t597, t604]);
+    // constant and copied elements
+    let t614 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t615 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t616 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t617 = t552 + P::triple([t589, c(0.0), c(0.0)]);
+    let t618 = platform_rotation[0][1] * P::lane(t421, 1);
+    let t619 = P::splat(P::lane(t433, 1)) * t580;
+    let t620 = P::splat(P::lane(t421, 0)) * t608;
     // rotation of the platform seen from the base
-    let t569 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t621 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t570 = P::triple([P::lane(t489, 1), P::lane(t489, 2), P::lane(t489, 0)]);
+    let t622 = P::triple([P::lane(t543, 1), P::lane(t543, 2), P::lane(t543, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t571 = mul_add(t539, t549, t521 * t528);
-    let t572 = mul_add(t540, t549, t522 * t528);
-    let t573 = mul_add(t541, t549, t523 * t528);
+    let t623 = mul_add(t481, t584, t471 * t567);
+    let t624 = mul_add(t481, t585, t471 * t568);
+    let t625 = mul_add(t481, t586, t471 * t569);
+    // inertia less external wrench that the actuators must balance
+    let t626 = mul_sub(t613, P::splat(platform_acceleration[5]), t614);
     // moment of the inertia force about the platform origin
-    let t574 = neg_mul_add(t569, t570, mul_add(t233, t548, t527));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t575 = mul_add(t226, t549, t313 * t528);
-    let t576 = mul_add(t235, t549, t294 * t528);
-    let t577 = mul_add(t243, t549, t314 * t528);
-    // mass matrix of the legs
-    let t578 = P::lane(t503, 2) + (P::lane(t503, 1) + P::lane(t503, 0));
-    mass_matrix_p[1][4] = t578;
-    mass_matrix_p[4][1] = t578;
-    // mass matrix M_p of the platform
-    let t579 = t552 - (P::lane(t485, 2) + (P::lane(t485, 1) + P::lane(t485, 0)));
-    mass_matrix_p[1][5] = t579;
-    mass_matrix_p[5][1] = t579;
-    let t580 = P::triple([c(0.0), t534, c(0.0)]);
-    // constant and copied elements
-    let t581 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t582 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
-    // inertia force less weight, without the actuators' own shares
-    let t583 = mul_sub(t358, P::splat(P::lane(t423, 0)), t556);
-    // mass matrix of the legs
-    let t584 = t557 + t580;
-    // mass matrix M_p of the platform
-    let t585 = neg_mul_add(P::splat(t558), t581, t565);
-    let t586 = P::mul_add(platform_rotation[0][2], P::lane(t382, 1), t560);
-    let t587 = P::mul_add(platform_rotation[0][0], P::lane(t382, 2), t566);
-    let t588 = P::triple([c(0.0), t544, c(0.0)]);
-    let t589 = mul_add(P::splat(P::lane(t382, 2)), t582, t561);
-    let t590 = mul_add(P::splat(P::lane(t382, 0)), t555, t567);
-    let t591 = mul_add(P::splat(P::lane(t391, 0)), t581, t568);
-    let t592 = -(t550 + (P::lane(t480, 2) + (P::lane(t480, 1) + P::lane(t480, 0))));
-    mass_matrix_p[1][3] = t592;
-    mass_matrix_p[3][1] = t592;
-    // constant and copied elements
-    let t593 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
-    // inertia less external wrench that the actuators must balance
-    let t594 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
-    // mass matrix of the legs
-    let t595 = P::triple([P::lane(t494, 2), P::lane(t551, 2), P::lane(t525, 2)]);
-    let t596 = P::triple([c(0.0), c(0.0), P::lane(t525, 1) + P::lane(t525, 0)]);
-    let t597 = t551 + t588;
-    // mass matrix M_p of the platform
-    let t598 = P::splat(P::lane(t382, 1)) * t536;
-    let t599 = P::splat(P::lane(t391, 1)) * t559;
-    // first moments by platform coordinate of the payload's inertia force
-    let t600 = P::triple([P::lane(t547, 2), P::lane(t547, 0), P::lane(t547, 1)]);
-    // mass matrix M_p of the platform
-    let t601 = t562 - (P::lane(t506, 2) + (P::lane(t506, 1) + P::lane(t506, 0)));
-    mass_matrix_p[2][3] = t601;
-    mass_matrix_p[3][2] = t601;
-    let t602 = t550 - (P::lane(t505, 2) + (P::lane(t505, 1) + P::lane(t505, 0)));
-    mass_matrix_p[0][4] = t602;
-    mass_matrix_p[4][0] = t602;
-    let t603 = P::triple([t592, t578, t579]);
-    // inertia less external wrench that the actuators must balance
-    let t604 = neg_mul_add(t593, t594, mul_add(t538, t564, t563));
-    // mass of payload and platform-side leg ends
-    let t605 = P::triple([t534, c(0.0), c(0.0)]);
-    // inertia less external wrench that the actuators must balance
-    let t606 = t603 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t607 = P::triple([P::lane(t504, 2), P::lane(t557, 2), P::lane(t532, 2)]);
-    let t608 = P::triple([c(0.0), c(0.0), P::lane(t532, 1) + P::lane(t532, 0)]);
-    // mass matrix M_p of the platform
-    let t609 = t504 + t605;
-    // constant and copied elements
-    let t610 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t611 =
-        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t612 = mul_add(t338, P::splat(P::lane(t423, 1)), t583);
-    // inertia less external wrench that the actuators must balance
-    let t613 = t584 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t614 = -(P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0)));
-    mass_matrix_p[0][3] = t614;
-    mass_matrix_p[3][0] = t614;
-    // mass matrix M_p of the platform
-    let t615 = -(t552 + (P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0))));
-    mass_matrix_p[2][4] = t615;
-    mass_matrix_p[4][2] = t615;
-    let t616 = -(t562 + (P::lane(t499, 2) + (P::lane(t499, 1) + P::lane(t499, 0))));
-    mass_matrix_p[0][5] = t616;
-    mass_matrix_p[5][0] = t616;
-    // mass matrix of the legs
-    let t617 = -(P::lane(t524, 2) + (P::lane(t524, 1) + P::lane(t524, 0)));
-    mass_matrix_p[2][5] = t617;
-    mass_matrix_p[5][2] = t617;
-    // mass matrix M_p of the platform
-    let t618 = neg_mul_add(t559, P::splat(t586), t585);
-    let t619 = P::mul_add(platform_rotation[0][2], P::lane(t391, 2), t587);
-    let t620 = mul_add(P::splat(P::lane(t382, 1)), t582, t590);
-    let t621 = mul_add(P::splat(P::lane(t382, 2)), t555, t598);
-    let t622 = P::triple([c(0.0), c(0.0), t544]);
-    let t623 = mul_add(P::splat(P::lane(t382, 2)), t610, t591);
-    let t624 = mul_add(P::splat(P::lane(t382, 0)), t581, t599);
-    // mass matrix of the legs
-    let t625 = P::triple([t614, t602, t616]);
-    // mass matrix M_p of the platform
-    let t626 = P::triple([t601, t615, t617]);
-    // mass matrix of the legs
-    let t627 = t595 + t596 + t622;
-    // mass matrix M_p of the platform
-    let t628 = P::splat(P::lane(t382, 1)) * t559;
-    // rotation of the platform seen from the base
-    let t629 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t630 = P::triple([P::lane(t547, 1), P::lane(t547, 2), P::lane(t547, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t631 = P::triple([P::lane(t571, 0), P::lane(t572, 0), P::lane(t573, 0)]);
-    let t632 = P::triple([P::lane(t571, 1), P::lane(t572, 1), P::lane(t573, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t633 = neg_mul_add(t626, P::splat(platform_acceleration[2]), t604);
-    // moment of the inertia force about the platform origin
-    let t634 = neg_mul_add(t629, t630, mul_add(t262, t600, t574));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t635 = P::triple([P::lane(t575, 0), P::lane(t576, 0), P::lane(t577, 0)]);
-    let t636 = P::triple([P::lane(t575, 1), P::lane(t576, 1), P::lane(t577, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t637 = mul_add(t609, P::splat(platform_acceleration[0]), t613);
-    // mass matrix of the legs
-    let t638 = t607 + t608 + P::triple([c(0.0), c(0.0), t534]);
-    // constant and copied elements
-    let t639 =
-        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // inertia force less weight, without the actuators' own shares
-    let t640 = mul_add(t359, P::splat(P::lane(t423, 2)), t612);
-    // mass matrix M_p of the platform
-    let t641 = neg_mul_add(t610, P::splat(t619), t618);
-    let t642 = neg_mul_add(t620, t639, neg_mul_add(t589, t611, t597));
-    let t643 = mul_add(P::splat(P::lane(t391, 2)), t582, t621);
-    let t644 = neg_mul_add(P::splat(platform_rotation[2][0]), t623, t627);
-    let t645 = mul_add(P::splat(P::lane(t382, 1)), t610, t624);
-    let t646 = mul_add(P::splat(P::lane(t382, 2)), t581, t628);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t647 = P::triple([P::lane(t571, 2), P::lane(t572, 2), P::lane(t573, 2)]);
-    let t648 = P::triple([P::lane(t575, 2), P::lane(t576, 2), P::lane(t577, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t649 = t633 - mul_add(t625, P::splat(platform_acceleration[0]), t606);
-    let t650 = mul_add(P::splat(platform_acceleration[2]), t638, t637);
-    // constant and copied elements
-    let t651 =
-        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t652 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix M_p of the platform
-    let t653 = neg_mul_add(t643, t651, t642);
-    let t654 = neg_mul_add(P::splat(platform_rotation[2][1]), t645, t644);
-    let t655 = mul_add(P::splat(P::lane(t391, 2)), t610, t646);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t656 = neg_mul_add(P::splat(P::lane(t634, 0)), t652, t631 + t632 + t647);
-    // inertia less external wrench that the actuators must balance
-    let t657 = neg_mul_add(t641, P::splat(platform_acceleration[3]), t649);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t658 = mul_add(t652, P::splat(P::lane(t640, 0)), t635 + t636 + t648);
-    // mass matrix of the legs
-    let t659 = P::triple([t614, t592, t601]);
-    // constant and copied elements
-    let t660 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t661 = mul_add(P::splat(platform_acceleration[3]), t659, t650);
-    // mass matrix M_p of the platform
-    let t662 = neg_mul_add(P::splat(platform_rotation[2][2]), t655, t654);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t663 = mul_sub(P::splat(P::lane(t634, 1)), t660, t656);
-    // inertia less external wrench that the actuators must balance
-    let t664 = neg_mul_add(t653, P::splat(platform_acceleration[4]), t657);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t665 = mul_add(P::splat(P::lane(t640, 1)), t660, t658);
-    // mass matrix M_p of the platform
-    let t666 = P::triple([t602, t578, t615]);
-    let t667 = P::triple([t616, t579, t617]);
-    // constant and copied elements
-    let t668 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    // inertia less external wrench that the actuators must balance
-    let t669 = mul_sub(t667, P::splat(platform_acceleration[5]), t668);
-    // constant and copied elements
-    let t670 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t671 = mul_add(P::splat(P::lane(t634, 2)), t670, t663);
-    let t672 = mul_add(P::splat(P::lane(t640, 2)), t670, t665);
-    // inertia less external wrench that the actuators must balance
-    let t673 = mul_add(P::splat(platform_acceleration[4]), t666, t661) + t669;
-    let t674 = neg_mul_add(t662, P::splat(platform_acceleration[5]), t664) + t671;
-    let t675 = t672 + t673;
-    let t676 = -P::lane(t674, 0);
-    let t677 = -P::lane(t674, 1);
-    let t678 = -P::lane(t674, 2);
+    let t627 = neg_mul_add(t621, t622, mul_add(t151, t593, t572));
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t628 = mul_add(t276, P::splat(P::lane(t538, 1)), t606);
+    let t629 = P::mul_add(P::lane(t268, 2), P::lane(t538, 2), t599);
+    // constant and copied elements
+    let t630 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t631 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t632 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t633 = t302 * P::splat(P::lane(t535, 2));
+    // mass matrix M_p of the platform
+    let t634 = neg_mul_add(P::splat(t607), t630, t617);
+    let t635 = P::mul_add(platform_rotation[0][2], P::lane(t421, 1), t609);
+    let t636 = P::mul_add(platform_rotation[0][0], P::lane(t421, 2), t618);
+    let t637 = P::triple([c(0.0), t589, c(0.0)]);
+    let t638 = mul_add(P::splat(P::lane(t421, 2)), t631, t610);
+    let t639 = mul_add(P::splat(P::lane(t421, 0)), t600, t619);
+    let t640 = mul_add(P::splat(P::lane(t433, 0)), t630, t620);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t641 = mul_add(P::splat(P::lane(t554, 2)), t632, t611);
+    // constant and copied elements
+    let t642 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t643 = P::triple([P::lane(t583, 1), P::lane(t583, 2), P::lane(t583, 0)]);
+    // mass matrix of the legs
+    let t644 = P::triple([P::lane(t552, 2), P::lane(t598, 2), P::lane(t570, 2)]);
+    let t645 = P::triple([c(0.0), c(0.0), P::lane(t570, 1) + P::lane(t570, 0)]);
+    let t646 = t598 + t637;
+    // mass matrix M_p of the platform
+    let t647 = P::splat(P::lane(t421, 1)) * t580;
+    let t648 = P::splat(P::lane(t433, 1)) * t608;
+    // first moments by platform coordinate of the payload's inertia force
+    let t649 = P::triple([P::lane(t592, 2), P::lane(t592, 0), P::lane(t592, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t650 = mul_add(t612, P::splat(platform_acceleration[4]), t594) + t626;
+    // mass matrix M_p of the platform
+    let t651 = P::triple([t575, t596, t597]);
+    // inertia less external wrench that the actuators must balance
+    let t652 = neg_mul_add(t642, t643, mul_add(t583, t616, t615));
+    let t653 = P::splat(platform_acceleration[1]) * t651;
+    // force along the actuator that balances the remaining wrench
+    let t654 = mul_add(t303, P::splat(P::lane(t566, 1)), t628);
+    let t655 = mul_add(t276, P::splat(P::lane(t538, 2)), t633);
+    let t656 = mul_sub(t568, P::splat(t629), t605 * P::splat(P::lane(t585, 0)));
+    let t657 = mul_sub(t569, P::splat(t629), t605 * P::splat(P::lane(t586, 0)));
+    // constant and copied elements
+    let t658 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t659 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t660 = neg_mul_add(t608, P::splat(t635), t634);
+    let t661 = P::mul_add(platform_rotation[0][2], P::lane(t433, 2), t636);
+    let t662 = mul_add(P::splat(P::lane(t421, 1)), t631, t639);
+    let t663 = mul_add(P::splat(P::lane(t421, 2)), t600, t647);
+    let t664 = P::triple([c(0.0), c(0.0), t589]);
+    let t665 = mul_add(P::splat(P::lane(t421, 2)), t658, t640);
+    let t666 = mul_add(P::splat(P::lane(t421, 0)), t630, t648);
+    // inertia less external wrench that the actuators must balance
+    let t667 = t641 + t650;
+    // mass matrix of the legs
+    let t668 = P::triple([t574, t595, t603]);
+    // mass matrix M_p of the platform
+    let t669 = P::triple([t565, t602, t604]);
+    // mass matrix of the legs
+    let t670 = t644 + t645 + t664;
+    // mass matrix M_p of the platform
+    let t671 = P::splat(P::lane(t421, 1)) * t608;
+    // rotation of the platform seen from the base
+    let t672 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t673 = P::triple([P::lane(t592, 1), P::lane(t592, 2), P::lane(t592, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t674 = P::triple([P::lane(t623, 0), P::lane(t624, 0), P::lane(t625, 0)]);
+    let t675 = P::triple([P::lane(t623, 1), P::lane(t624, 1), P::lane(t625, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t676 = neg_mul_add(P::splat(platform_acceleration[2]), t669, t652);
+    // moment of the inertia force about the platform origin
+    let t677 = neg_mul_add(t672, t673, mul_add(t159, t649, t627));
+    // force along the actuator that balances the remaining wrench
+    let t678 = mul_add(t303, P::splat(P::lane(t566, 2)), t655);
+    let t679 = neg_mul_add(P::splat(P::lane(t585, 1)), t654, t656);
+    let t680 = neg_mul_add(P::splat(P::lane(t586, 1)), t654, t657);
+    // constant and copied elements
+    let t681 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t682 = neg_mul_add(t658, P::splat(t661), t660);
+    let t683 = neg_mul_add(t662, t681, neg_mul_add(t638, t659, t646));
+    let t684 = mul_add(P::splat(P::lane(t433, 2)), t631, t663);
+    let t685 = neg_mul_add(P::splat(platform_rotation[2][0]), t665, t670);
+    let t686 = mul_add(P::splat(P::lane(t421, 1)), t658, t666);
+    let t687 = mul_add(P::splat(P::lane(t421, 2)), t630, t671);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t688 = P::triple([P::lane(t623, 2), P::lane(t624, 2), P::lane(t625, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t689 = t676 - mul_add(P::splat(platform_acceleration[0]), t668, t653);
+    // force along the actuator that balances the remaining wrench
+    let t690 = neg_mul_add(P::splat(P::lane(t585, 2)), t678, t679);
+    let t691 = neg_mul_add(P::splat(P::lane(t586, 2)), t678, t680);
+    // constant and copied elements
+    let t692 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t693 = t535 * P::splat(P::lane(t667, 1));
+    // mass matrix M_p of the platform
+    let t694 = neg_mul_add(t684, t692, t683);
+    let t695 = neg_mul_add(P::splat(platform_rotation[2][1]), t686, t685);
+    let t696 = mul_add(P::splat(P::lane(t433, 2)), t658, t687);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t697 = neg_mul_add(t573, P::splat(P::lane(t677, 0)), t674 + t675 + t688);
+    // inertia less external wrench that the actuators must balance
+    let t698 = neg_mul_add(P::splat(platform_acceleration[3]), t682, t689);
+    // force along the actuator that balances the remaining wrench
+    let t699 = mul_sub(t567, P::splat(t629), t605 * P::splat(P::lane(t584, 0)));
+    let t700 = mul_add(t538, P::splat(P::lane(t667, 0)), t693);
+    // mass matrix M_p of the platform
+    let t701 = neg_mul_add(P::splat(platform_rotation[2][2]), t696, t695);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t702 = mul_sub(t601, P::splat(P::lane(t677, 1)), t697);
+    // inertia less external wrench that the actuators must balance
+    let t703 = neg_mul_add(P::splat(platform_acceleration[4]), t694, t698);
+    // force along the actuator that balances the remaining wrench
+    let t704 = mul_add(t566, P::splat(P::lane(t667, 2)), t700);
+    let t705 = neg_mul_add(t654, P::splat(P::lane(t584, 1)), t699);
+    let t706 = P::triple([P::lane(t690, 2), P::lane(t690, 0), P::lane(t690, 1)]);
+    let t707 = P::triple([P::lane(t691, 1), P::lane(t691, 2), P::lane(t691, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t708 = mul_add(t632, P::splat(P::lane(t677, 2)), t702);
+    // force along the actuator that balances the remaining wrench
+    let t709 = P::triple([P::lane(t690, 1), P::lane(t690, 2), P::lane(t690, 0)]);
+    let t710 = P::triple([P::lane(t691, 2), P::lane(t691, 0), P::lane(t691, 1)]);
+    let t711 = neg_mul_add(t678, P::splat(P::lane(t584, 2)), t705);
+    let t712 = mul_sub(t709, t710, t706 * t707);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t713 = P::triple([P::lane(t584, 0), P::lane(t585, 0), P::lane(t586, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t714 = t708 + neg_mul_add(P::splat(platform_acceleration[5]), t701, t703);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t715 = P::triple([P::lane(t584, 1), P::lane(t585, 1), P::lane(t586, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t716 = mul_add(P::splat(t629), t714, P::splat(P::lane(t704, 0)) * t713);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t717 = P::triple([P::lane(t584, 2), P::lane(t585, 2), P::lane(t586, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t718 = P::lane(t711, 1) * P::lane(t712, 1);
+    let t719 = P::triple([P::lane(t711, 1), P::lane(t711, 2), P::lane(t711, 0)]);
+    let t720 = mul_add(P::splat(P::lane(t704, 1)), t715, t716);
+    let t721 = P::triple([P::lane(t711, 2), P::lane(t711, 0), P::lane(t711, 1)]);
+    let t722 = P::mul_add(P::lane(t711, 0), P::lane(t712, 0), t718);
+    let t723 = mul_add(P::splat(P::lane(t704, 2)), t717, t720);
+    let t724 = P::triple([P::lane(t605, 0), P::lane(t654, 0), P::lane(t678, 0)]);
+    let t725 = mul_sub(t706, t719, t709 * t721);
+    let t726 = c(1.0) / P::mul_add(P::lane(t711, 2), P::lane(t712, 2), t722);
+    let t727 = P::triple([P::lane(t605, 1), P::lane(t654, 1), P::lane(t678, 1)]);
+    let t728 = mul_sub(t707, t721, t710 * t719) * P::splat(P::lane(t723, 1));
+    let t729 = mul_add(t712, P::splat(P::lane(t723, 0)), t728);
+    let t730 = P::triple([P::lane(t605, 2), P::lane(t654, 2), P::lane(t678, 2)]);
+    let t731 = P::splat(t726) * mul_add(t725, P::splat(P::lane(t723, 2)), t729);
+    // inertia less external wrench that the actuators must balance
+    let t732 = -P::lane(t714, 0);
+    let t733 = -P::lane(t714, 1);
+    // force along the actuator that balances the remaining wrench
+    let t734 = -t731;
+    let t735 = mul_add(t724, P::splat(P::lane(t731, 0)), t704);
+    // inertia less external wrench that the actuators must balance
+    let t736 = -P::lane(t714, 2);
+    // force along the actuator that balances the remaining wrench
+    let t737 = mul_add(t727, P::splat(P::lane(t731, 1)), t735);
+    let t738 = mul_add(t730, P::splat(P::lane(t731, 2)), t737);
+    let t739 = P::splat(c(1.0) / t629) * t738;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t734, t739],
         &[
-            [P::lane(t226, 0), P::lane(t226, 1), P::lane(t226, 2), P::lane(t313, 0), P::lane(t313, 1), P::lane(t313, 2)],
-            [P::lane(t235, 0), P::lane(t235, 1), P::lane(t235, 2), P::lane(t294, 0), P::lane(t294, 1), P::lane(t294, 2)],
-            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t314, 0), P::lane(t314, 1), P::lane(t314, 2)],
-            [P::lane(t539, 0), P::lane(t539, 1), P::lane(t539, 2), P::lane(t521, 0), P::lane(t521, 1), P::lane(t521, 2)],
-            [P::lane(t540, 0), P::lane(t540, 1), P::lane(t540, 2), P::lane(t522, 0), P::lane(t522, 1), P::lane(t522, 2)],
-            [P::lane(t541, 0), P::lane(t541, 1), P::lane(t541, 2), P::lane(t523, 0), P::lane(t523, 1), P::lane(t523, 2)],
+            [t276, t268],
+            [t302, t277],
+            [t303, t286],
+            [t567, t584],
+            [t568, t585],
+            [t569, t586],
         ],
-        &[P::lane(t675, 0), P::lane(t675, 1), P::lane(t675, 2), t676, t677, t678],
+        &[P::lane(t667, 0), P::lane(t667, 1), P::lane(t667, 2), t732, t733, t736],
+        &[1, 3, 5, 0, 2, 4],
     );
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t178, 0);
+    actuator_length[0] = P::lane(t200, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t178, 1);
+    actuator_length[1] = P::lane(t189, 0);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t178, 2);
+    actuator_length[2] = P::lane(t200, 1);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t220, 0);
+    actuator_length[3] = P::lane(t189, 1);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t220, 1);
+    actuator_length[4] = P::lane(t200, 2);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t220, 2);
+    actuator_length[5] = P::lane(t189, 2);
     // leg 1: rate of the rod's extent along the actuator axis
-    actuator_velocity[0] = P::lane(t214, 0);
+    actuator_velocity[0] = P::lane(t254, 0);
     // leg 2: rate of the rod's extent along the actuator axis
-    actuator_velocity[1] = P::lane(t214, 1);
+    actuator_velocity[1] = P::lane(t233, 0);
     // leg 3: rate of the rod's extent along the actuator axis
-    actuator_velocity[2] = P::lane(t214, 2);
+    actuator_velocity[2] = P::lane(t254, 1);
     // leg 4: rate of the rod's extent along the actuator axis
-    actuator_velocity[3] = P::lane(t274, 0);
+    actuator_velocity[3] = P::lane(t233, 1);
     // leg 5: rate of the rod's extent along the actuator axis
-    actuator_velocity[4] = P::lane(t274, 1);
+    actuator_velocity[4] = P::lane(t254, 2);
     // leg 6: rate of the rod's extent along the actuator axis
-    actuator_velocity[5] = P::lane(t274, 2);
+    actuator_velocity[5] = P::lane(t233, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t226, 0);
-    jacobian_dp[0][1] = P::lane(t235, 0);
-    jacobian_dp[0][2] = P::lane(t243, 0);
+    jacobian_dp[0][0] = P::lane(t268, 0);
+    jacobian_dp[0][1] = P::lane(t277, 0);
+    jacobian_dp[0][2] = P::lane(t286, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t539, 0);
-    jacobian_dp[0][4] = P::lane(t540, 0);
-    jacobian_dp[0][5] = P::lane(t541, 0);
+    jacobian_dp[0][3] = P::lane(t584, 0);
+    jacobian_dp[0][4] = P::lane(t585, 0);
+    jacobian_dp[0][5] = P::lane(t586, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t226, 1);
-    jacobian_dp[1][1] = P::lane(t235, 1);
-    jacobian_dp[1][2] = P::lane(t243, 1);
+    jacobian_dp[1][0] = P::lane(t276, 0);
+    jacobian_dp[1][1] = P::lane(t302, 0);
+    jacobian_dp[1][2] = P::lane(t303, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t539, 1);
-    jacobian_dp[1][4] = P::lane(t540, 1);
-    jacobian_dp[1][5] = P::lane(t541, 1);
+    jacobian_dp[1][3] = P::lane(t567, 0);
+    jacobian_dp[1][4] = P::lane(t568, 0);
+    jacobian_dp[1][5] = P::lane(t569, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t226, 2);
-    jacobian_dp[2][1] = P::lane(t235, 2);
-    jacobian_dp[2][2] = P::lane(t243, 2);
+    jacobian_dp[2][0] = P::lane(t268, 1);
+    jacobian_dp[2][1] = P::lane(t277, 1);
+    jacobian_dp[2][2] = P::lane(t286, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t539, 2);
-    jacobian_dp[2][4] = P::lane(t540, 2);
-    jacobian_dp[2][5] = P::lane(t541, 2);
+    jacobian_dp[2][3] = P::lane(t584, 1);
+    jacobian_dp[2][4] = P::lane(t585, 1);
+    jacobian_dp[2][5] = P::lane(t586, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t313, 0);
-    jacobian_dp[3][1] = P::lane(t294, 0);
-    jacobian_dp[3][2] = P::lane(t314, 0);
+    jacobian_dp[3][0] = P::lane(t276, 1);
+    jacobian_dp[3][1] = P::lane(t302, 1);
+    jacobian_dp[3][2] = P::lane(t303, 1);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t521, 0);
-    jacobian_dp[3][4] = P::lane(t522, 0);
-    jacobian_dp[3][5] = P::lane(t523, 0);
+    jacobian_dp[3][3] = P::lane(t567, 1);
+    jacobian_dp[3][4] = P::lane(t568, 1);
+    jacobian_dp[3][5] = P::lane(t569, 1);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t313, 1);
-    jacobian_dp[4][1] = P::lane(t294, 1);
-    jacobian_dp[4][2] = P::lane(t314, 1);
+    jacobian_dp[4][0] = P::lane(t268, 2);
+    jacobian_dp[4][1] = P::lane(t277, 2);
+    jacobian_dp[4][2] = P::lane(t286, 2);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t521, 1);
-    jacobian_dp[4][4] = P::lane(t522, 1);
-    jacobian_dp[4][5] = P::lane(t523, 1);
+    jacobian_dp[4][3] = P::lane(t584, 2);
+    jacobian_dp[4][4] = P::lane(t585, 2);
+    jacobian_dp[4][5] = P::lane(t586, 2);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t313, 2);
-    jacobian_dp[5][1] = P::lane(t294, 2);
-    jacobian_dp[5][2] = P::lane(t314, 2);
+    jacobian_dp[5][0] = P::lane(t276, 2);
+    jacobian_dp[5][1] = P::lane(t302, 2);
+    jacobian_dp[5][2] = P::lane(t303, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t521, 2);
-    jacobian_dp[5][4] = P::lane(t522, 2);
-    jacobian_dp[5][5] = P::lane(t523, 2);
+    jacobian_dp[5][3] = P::lane(t567, 2);
+    jacobian_dp[5][4] = P::lane(t568, 2);
+    jacobian_dp[5][5] = P::lane(t569, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t609, 0);
+    mass_matrix_p[0][0] = P::lane(t529, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t504, 1);
-    mass_matrix_p[0][2] = P::lane(t504, 2);
-    mass_matrix_p[1][0] = P::lane(t504, 1);
+    mass_matrix_p[0][1] = P::lane(t455, 1);
+    mass_matrix_p[0][2] = P::lane(t455, 2);
+    mass_matrix_p[1][0] = P::lane(t455, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t584, 1);
+    mass_matrix_p[1][1] = P::lane(t509, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t557, 2);
-    mass_matrix_p[2][0] = P::lane(t504, 2);
-    mass_matrix_p[2][1] = P::lane(t557, 2);
+    mass_matrix_p[1][2] = P::lane(t489, 2);
+    mass_matrix_p[2][0] = P::lane(t455, 2);
+    mass_matrix_p[2][1] = P::lane(t489, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t638, 2);
-    mass_matrix_p[3][3] = P::lane(t641, 0);
-    mass_matrix_p[3][4] = P::lane(t641, 1);
-    mass_matrix_p[3][5] = P::lane(t641, 2);
-    mass_matrix_p[4][3] = P::lane(t641, 1);
-    mass_matrix_p[4][4] = P::lane(t653, 1);
-    mass_matrix_p[4][5] = P::lane(t653, 2);
-    mass_matrix_p[5][3] = P::lane(t641, 2);
-    mass_matrix_p[5][4] = P::lane(t653, 2);
-    mass_matrix_p[5][5] = P::lane(t662, 2);
+    mass_matrix_p[2][2] = P::lane(t553, 2);
+    mass_matrix_p[3][3] = P::lane(t682, 0);
+    mass_matrix_p[3][4] = P::lane(t682, 1);
+    mass_matrix_p[3][5] = P::lane(t682, 2);
+    mass_matrix_p[4][3] = P::lane(t682, 1);
+    mass_matrix_p[4][4] = P::lane(t694, 1);
+    mass_matrix_p[4][5] = P::lane(t694, 2);
+    mass_matrix_p[5][3] = P::lane(t682, 2);
+    mass_matrix_p[5][4] = P::lane(t694, 2);
+    mass_matrix_p[5][5] = P::lane(t701, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t672, 0);
-    total_bias[1] = P::lane(t672, 1);
-    total_bias[2] = P::lane(t672, 2);
-    total_bias[3] = -P::lane(t671, 0);
-    total_bias[4] = -P::lane(t671, 1);
-    total_bias[5] = -P::lane(t671, 2);
+    total_bias[0] = P::lane(t641, 0);
+    total_bias[1] = P::lane(t641, 1);
+    total_bias[2] = P::lane(t641, 2);
+    total_bias[3] = -P::lane(t708, 0);
+    total_bias[4] = -P::lane(t708, 1);
+    total_bias[5] = -P::lane(t708, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];

@@ -23,10 +23,10 @@
 // passive_forces                  1071         696
 // bias                            1896        1210
 // equation_of_motion              6023        3738
-// inverse_dynamics                1947        1249
+// inverse_dynamics                1947        1401
 // actuator_geometry                531         339
-// control                         2801        1729
-// passive_inverse_dynamics        2577        1636
+// control                         2801        1881
+// passive_inverse_dynamics        2577        1788
 // base_reaction                   1977        1285
 // forward_dynamics                2508        1577
 // energy                          1448         894
@@ -34,7 +34,7 @@
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use crate::solve::solve_general;
+use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
 #[allow(unused_imports)]
 use crate::triple::Triple;
 
@@ -19526,151 +19526,236 @@ pub fn inverse_dynamics<T: Scalar>(
     let t723 = parameters.axial_damping[5] * t357;
     let t724 = mul_sub(parameters.axial_stiffness[5], t722, t723);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t725 = neg_mul_add(t42, t125, t45 * t123);
-    let t726 = neg_mul_add(t45, t121, t39 * t125);
-    let t727 = neg_mul_add(t39, t123, t42 * t121);
+    let t725 = mul_sub(t42, t125, t45 * t123);
+    let t726 = -t725;
+    let t727 = mul_sub(t45, t121, t39 * t125);
+    let t728 = -t727;
+    let t729 = mul_sub(t39, t123, t42 * t121);
+    let t730 = -t729;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t728 = neg_mul_add(t54, t131, t57 * t129);
-    let t729 = neg_mul_add(t57, t127, t51 * t131);
-    let t730 = neg_mul_add(t51, t129, t54 * t127);
+    let t731 = mul_sub(t54, t131, t57 * t129);
+    let t732 = -t731;
+    let t733 = mul_sub(t57, t127, t51 * t131);
+    let t734 = -t733;
+    let t735 = mul_sub(t51, t129, t54 * t127);
+    let t736 = -t735;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t731 = neg_mul_add(t66, t137, t69 * t135);
-    let t732 = neg_mul_add(t69, t133, t63 * t137);
-    let t733 = neg_mul_add(t63, t135, t66 * t133);
+    let t737 = mul_sub(t66, t137, t69 * t135);
+    let t738 = -t737;
+    let t739 = mul_sub(t69, t133, t63 * t137);
+    let t740 = -t739;
+    let t741 = mul_sub(t63, t135, t66 * t133);
+    let t742 = -t741;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t734 = neg_mul_add(t78, t143, t81 * t141);
-    let t735 = neg_mul_add(t81, t139, t75 * t143);
-    let t736 = neg_mul_add(t75, t141, t78 * t139);
+    let t743 = mul_sub(t78, t143, t81 * t141);
+    let t744 = -t743;
+    let t745 = mul_sub(t81, t139, t75 * t143);
+    let t746 = -t745;
+    let t747 = mul_sub(t75, t141, t78 * t139);
+    let t748 = -t747;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t737 = neg_mul_add(t90, t149, t93 * t147);
-    let t738 = neg_mul_add(t93, t145, t87 * t149);
-    let t739 = neg_mul_add(t87, t147, t90 * t145);
+    let t749 = mul_sub(t90, t149, t93 * t147);
+    let t750 = -t749;
+    let t751 = mul_sub(t93, t145, t87 * t149);
+    let t752 = -t751;
+    let t753 = mul_sub(t87, t147, t90 * t145);
+    let t754 = -t753;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t740 = neg_mul_add(t102, t155, t105 * t153);
-    let t741 = neg_mul_add(t105, t151, t99 * t155);
-    let t742 = neg_mul_add(t99, t153, t102 * t151);
+    let t755 = mul_sub(t102, t155, t105 * t153);
+    let t756 = -t755;
+    let t757 = mul_sub(t105, t151, t99 * t155);
+    let t758 = -t757;
+    let t759 = mul_sub(t99, t153, t102 * t151);
+    let t760 = -t759;
     // leg 1: moment about the platform origin of the leg's inertia at its joint
-    let t743 = mul_sub(t42, t626, t45 * t624);
-    let t744 = mul_sub(t45, t622, t39 * t626);
-    let t745 = mul_sub(t39, t624, t42 * t622);
+    let t761 = mul_sub(t42, t626, t45 * t624);
+    let t762 = mul_sub(t45, t622, t39 * t626);
+    let t763 = mul_sub(t39, t624, t42 * t622);
     // leg 2: moment about the platform origin of the leg's inertia at its joint
-    let t746 = mul_sub(t54, t642, t57 * t640);
-    let t747 = mul_sub(t57, t638, t51 * t642);
-    let t748 = mul_sub(t51, t640, t54 * t638);
+    let t764 = mul_sub(t54, t642, t57 * t640);
+    let t765 = mul_sub(t57, t638, t51 * t642);
+    let t766 = mul_sub(t51, t640, t54 * t638);
     // leg 4: moment about the platform origin of the leg's inertia at its joint
-    let t749 = mul_sub(t78, t674, t81 * t672);
-    let t750 = mul_sub(t81, t670, t75 * t674);
-    let t751 = mul_sub(t75, t672, t78 * t670);
+    let t767 = mul_sub(t78, t674, t81 * t672);
+    let t768 = mul_sub(t81, t670, t75 * t674);
+    let t769 = mul_sub(t75, t672, t78 * t670);
     // leg 6: moment about the platform origin of the leg's inertia at its joint
-    let t752 = mul_sub(t102, t706, t105 * t704);
-    let t753 = mul_sub(t105, t702, t99 * t706);
-    let t754 = mul_sub(t99, t704, t102 * t702);
+    let t770 = mul_sub(t102, t706, t105 * t704);
+    let t771 = mul_sub(t105, t702, t99 * t706);
+    let t772 = mul_sub(t99, t704, t102 * t702);
     // inertia force less weight, without the actuators' own shares
-    let t755 = mul_add(t211, t451, mul_add(t197, t443, t204 * t447));
-    let t756 = mul_add(t211, t460, mul_add(t197, t454, t204 * t457));
-    let t757 = mul_add(t211, t466, mul_add(t197, t462, t204 * t464));
+    let t773 = mul_add(t211, t451, mul_add(t197, t443, t204 * t447));
+    let t774 = mul_add(t211, t460, mul_add(t197, t454, t204 * t457));
+    let t775 = mul_add(t211, t466, mul_add(t197, t462, t204 * t464));
     // first moments by platform coordinate of the payload's inertia force
-    let t758 = mul_add(t256, t451, mul_add(t228, t443, t242 * t447));
-    let t759 = mul_sub(t197, t426, t758);
-    let t760 = mul_add(t285, t451, mul_add(t242, t443, t271 * t447));
-    let t761 = mul_sub(t204, t426, t760);
-    let t762 = mul_add(t300, t451, mul_add(t256, t443, t285 * t447));
-    let t763 = mul_sub(t211, t426, t762);
-    let t764 = mul_add(t256, t460, mul_add(t228, t454, t242 * t457));
-    let t765 = mul_sub(t197, t428, t764);
-    let t766 = mul_add(t285, t460, mul_add(t242, t454, t271 * t457));
-    let t767 = mul_sub(t204, t428, t766);
-    let t768 = mul_add(t300, t460, mul_add(t256, t454, t285 * t457));
-    let t769 = mul_sub(t211, t428, t768);
-    let t770 = mul_add(t256, t466, mul_add(t228, t462, t242 * t464));
-    let t771 = mul_sub(t197, t430, t770);
-    let t772 = mul_add(t285, t466, mul_add(t242, t462, t271 * t464));
-    let t773 = mul_sub(t204, t430, t772);
-    let t774 = mul_add(t300, t466, mul_add(t256, t462, t285 * t464));
-    let t775 = mul_sub(t211, t430, t774);
+    let t776 = mul_add(t256, t451, mul_add(t228, t443, t242 * t447));
+    let t777 = mul_sub(t197, t426, t776);
+    let t778 = mul_add(t285, t451, mul_add(t242, t443, t271 * t447));
+    let t779 = mul_sub(t204, t426, t778);
+    let t780 = mul_add(t300, t451, mul_add(t256, t443, t285 * t447));
+    let t781 = mul_sub(t211, t426, t780);
+    let t782 = mul_add(t256, t460, mul_add(t228, t454, t242 * t457));
+    let t783 = mul_sub(t197, t428, t782);
+    let t784 = mul_add(t285, t460, mul_add(t242, t454, t271 * t457));
+    let t785 = mul_sub(t204, t428, t784);
+    let t786 = mul_add(t300, t460, mul_add(t256, t454, t285 * t457));
+    let t787 = mul_sub(t211, t428, t786);
+    let t788 = mul_add(t256, t466, mul_add(t228, t462, t242 * t464));
+    let t789 = mul_sub(t197, t430, t788);
+    let t790 = mul_add(t285, t466, mul_add(t242, t462, t271 * t464));
+    let t791 = mul_sub(t204, t430, t790);
+    let t792 = mul_add(t300, t466, mul_add(t256, t462, t285 * t464));
+    let t793 = mul_sub(t211, t430, t792);
     // moment of the legs' inertia at their joints about the platform origin
-    let t776 = neg_mul_add(t69, t656, mul_add(t66, t658, t749));
-    let t777 = neg_mul_add(t93, t688, mul_add(t90, t690, t752));
-    let t778 = t743 + t746 + t776 + t777;
-    let t779 = neg_mul_add(t63, t658, mul_add(t69, t654, t750));
-    let t780 = neg_mul_add(t87, t690, mul_add(t93, t686, t753));
-    let t781 = t744 + t747 + t779 + t780;
-    let t782 = neg_mul_add(t66, t654, mul_add(t63, t656, t751));
-    let t783 = neg_mul_add(t90, t686, mul_add(t87, t688, t754));
-    let t784 = t745 + t748 + t782 + t783;
+    let t794 = neg_mul_add(t69, t656, mul_add(t66, t658, t767));
+    let t795 = neg_mul_add(t93, t688, mul_add(t90, t690, t770));
+    let t796 = t761 + t764 + t794 + t795;
+    let t797 = neg_mul_add(t63, t658, mul_add(t69, t654, t768));
+    let t798 = neg_mul_add(t87, t690, mul_add(t93, t686, t771));
+    let t799 = t762 + t765 + t797 + t798;
+    let t800 = neg_mul_add(t66, t654, mul_add(t63, t656, t769));
+    let t801 = neg_mul_add(t90, t686, mul_add(t87, t688, t772));
+    let t802 = t763 + t766 + t800 + t801;
     // inertia less external wrench that the actuators must balance
-    let t785 = base_rotation[1][0] * external_wrench[1];
-    let t786 = mul_add(base_rotation[0][0], external_wrench[0], t785);
-    let t787 = mul_add(base_rotation[2][0], external_wrench[2], t786);
-    let t788 = t654 + (t638 + (t622 + (t755 + mul_sub(t190, t426, t787))));
-    let t789 = t702 + (t686 + (t670 + t788));
-    let t790 = base_rotation[1][1] * external_wrench[1];
-    let t791 = mul_add(base_rotation[0][1], external_wrench[0], t790);
-    let t792 = mul_add(base_rotation[2][1], external_wrench[2], t791);
-    let t793 = t656 + (t640 + (t624 + (t756 + mul_sub(t190, t428, t792))));
-    let t794 = t704 + (t688 + (t672 + t793));
-    let t795 = base_rotation[1][2] * external_wrench[1];
-    let t796 = mul_add(base_rotation[0][2], external_wrench[0], t795);
-    let t797 = mul_add(base_rotation[2][2], external_wrench[2], t796);
-    let t798 = t658 + (t642 + (t626 + (t757 + mul_sub(t190, t430, t797))));
-    let t799 = t706 + (t690 + (t674 + t798));
-    let t800 = neg_mul_add(parameters.payload_com[0], t797, t771);
-    let t801 = neg_mul_add(parameters.payload_com[0], t792, t765);
-    let t802 = neg_mul_add(parameters.payload_com[1], t797, t773);
-    let t803 = neg_mul_add(parameters.payload_com[1], t792, t767);
-    let t804 = mul_sub(t15, t802, t24 * t803);
-    let t805 = neg_mul_add(parameters.payload_com[2], t792, t769);
-    let t806 = neg_mul_add(parameters.payload_com[2], t797, t775);
-    let t807 = base_rotation[1][0] * external_wrench[4];
-    let t808 = mul_add(base_rotation[0][0], external_wrench[3], t807);
-    let t809 = mul_add(base_rotation[2][0], external_wrench[5], t808);
-    let t810 = neg_mul_add(t27, t805, mul_sub(t18, t806, t809));
-    let t811 = t778 + (mul_sub(t12, t800, t21 * t801) + t804 + t810);
-    let t812 = neg_mul_add(parameters.payload_com[0], t787, t759);
-    let t813 = neg_mul_add(parameters.payload_com[1], t787, t761);
-    let t814 = mul_sub(t24, t813, t6 * t802);
-    let t815 = neg_mul_add(parameters.payload_com[2], t787, t763);
-    let t816 = base_rotation[1][1] * external_wrench[4];
-    let t817 = mul_add(base_rotation[0][1], external_wrench[3], t816);
-    let t818 = mul_add(base_rotation[2][1], external_wrench[5], t817);
-    let t819 = neg_mul_add(t9, t806, mul_sub(t27, t815, t818));
-    let t820 = t781 + (mul_sub(t21, t812, t3 * t800) + t814 + t819);
-    let t821 = mul_sub(t6, t803, t15 * t813);
-    let t822 = base_rotation[1][2] * external_wrench[4];
-    let t823 = mul_add(base_rotation[0][2], external_wrench[3], t822);
-    let t824 = mul_add(base_rotation[2][2], external_wrench[5], t823);
-    let t825 = neg_mul_add(t18, t815, mul_sub(t9, t805, t824));
-    let t826 = t784 + (mul_sub(t3, t801, t12 * t812) + t821 + t825);
+    let t803 = base_rotation[1][0] * external_wrench[1];
+    let t804 = mul_add(base_rotation[0][0], external_wrench[0], t803);
+    let t805 = mul_add(base_rotation[2][0], external_wrench[2], t804);
+    let t806 = t654 + (t638 + (t622 + (t773 + mul_sub(t190, t426, t805))));
+    let t807 = t702 + (t686 + (t670 + t806));
+    let t808 = base_rotation[1][1] * external_wrench[1];
+    let t809 = mul_add(base_rotation[0][1], external_wrench[0], t808);
+    let t810 = mul_add(base_rotation[2][1], external_wrench[2], t809);
+    let t811 = t656 + (t640 + (t624 + (t774 + mul_sub(t190, t428, t810))));
+    let t812 = t704 + (t688 + (t672 + t811));
+    let t813 = base_rotation[1][2] * external_wrench[1];
+    let t814 = mul_add(base_rotation[0][2], external_wrench[0], t813);
+    let t815 = mul_add(base_rotation[2][2], external_wrench[2], t814);
+    let t816 = t658 + (t642 + (t626 + (t775 + mul_sub(t190, t430, t815))));
+    let t817 = t706 + (t690 + (t674 + t816));
+    let t818 = neg_mul_add(parameters.payload_com[0], t815, t789);
+    let t819 = neg_mul_add(parameters.payload_com[0], t810, t783);
+    let t820 = neg_mul_add(parameters.payload_com[1], t815, t791);
+    let t821 = neg_mul_add(parameters.payload_com[1], t810, t785);
+    let t822 = mul_sub(t15, t820, t24 * t821);
+    let t823 = neg_mul_add(parameters.payload_com[2], t810, t787);
+    let t824 = neg_mul_add(parameters.payload_com[2], t815, t793);
+    let t825 = base_rotation[1][0] * external_wrench[4];
+    let t826 = mul_add(base_rotation[0][0], external_wrench[3], t825);
+    let t827 = mul_add(base_rotation[2][0], external_wrench[5], t826);
+    let t828 = neg_mul_add(t27, t823, mul_sub(t18, t824, t827));
+    let t829 = t796 + (mul_sub(t12, t818, t21 * t819) + t822 + t828);
+    let t830 = neg_mul_add(parameters.payload_com[0], t805, t777);
+    let t831 = neg_mul_add(parameters.payload_com[1], t805, t779);
+    let t832 = mul_sub(t24, t831, t6 * t820);
+    let t833 = neg_mul_add(parameters.payload_com[2], t805, t781);
+    let t834 = base_rotation[1][1] * external_wrench[4];
+    let t835 = mul_add(base_rotation[0][1], external_wrench[3], t834);
+    let t836 = mul_add(base_rotation[2][1], external_wrench[5], t835);
+    let t837 = neg_mul_add(t9, t824, mul_sub(t27, t833, t836));
+    let t838 = t799 + (mul_sub(t21, t830, t3 * t818) + t832 + t837);
+    let t839 = mul_sub(t6, t821, t15 * t831);
+    let t840 = base_rotation[1][2] * external_wrench[4];
+    let t841 = mul_add(base_rotation[0][2], external_wrench[3], t840);
+    let t842 = mul_add(base_rotation[2][2], external_wrench[5], t841);
+    let t843 = neg_mul_add(t18, t833, mul_sub(t9, t823, t842));
+    let t844 = t802 + (mul_sub(t3, t819, t12 * t830) + t839 + t843);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t845 = mul_sub(t123, t137, t125 * t135);
+    let t846 = mul_sub(t135, t149, t137 * t147);
+    let t847 = mul_sub(t125, t147, t123 * t149);
+    let t848 = mul_add(t145, t845, mul_add(t121, t846, t133 * t847));
+    let t849 = c(1.0) / t848;
+    let t850 = mul_sub(t133, t147, t135 * t145);
+    let t851 = mul_sub(t137, t145, t133 * t149);
+    let t852 = mul_add(t155, t850, mul_add(t151, t846, t153 * t851));
+    let t853 = mul_sub(t121, t135, t123 * t133);
+    let t854 = mul_sub(t125, t133, t121 * t137);
+    let t855 = mul_add(t155, t853, mul_add(t151, t845, t153 * t854));
+    let t856 = mul_sub(t123, t145, t121 * t147);
+    let t857 = mul_sub(t121, t149, t125 * t145);
+    let t858 = mul_add(t155, t856, mul_add(t151, t847, t153 * t857));
+    let t859 = neg_mul_add(t737, t858, mul_sub(t755, t848, t725 * t852));
+    let t860 = neg_mul_add(t749, t855, t859);
+    let t861 = mul_add(t131, t853, mul_add(t127, t845, t129 * t854));
+    let t862 = mul_add(t131, t856, mul_add(t127, t847, t129 * t857));
+    let t863 = mul_add(t131, t850, mul_add(t127, t846, t129 * t851));
+    let t864 = neg_mul_add(t739, t862, mul_sub(t733, t848, t727 * t863));
+    let t865 = neg_mul_add(t751, t861, t864);
+    let t866 = mul_add(t143, t853, mul_add(t139, t845, t141 * t854));
+    let t867 = mul_add(t143, t856, mul_add(t139, t847, t141 * t857));
+    let t868 = mul_add(t143, t850, mul_add(t139, t846, t141 * t851));
+    let t869 = neg_mul_add(t741, t867, mul_sub(t747, t848, t729 * t868));
+    let t870 = neg_mul_add(t753, t866, t869);
+    let t871 = neg_mul_add(t739, t867, mul_sub(t745, t848, t727 * t868));
+    let t872 = neg_mul_add(t751, t866, t871);
+    let t873 = neg_mul_add(t741, t862, mul_sub(t735, t848, t729 * t863));
+    let t874 = neg_mul_add(t753, t861, t873);
+    let t875 = mul_sub(t865, t870, t872 * t874);
+    let t876 = neg_mul_add(t737, t862, mul_sub(t731, t848, t725 * t863));
+    let t877 = neg_mul_add(t749, t861, t876);
+    let t878 = neg_mul_add(t741, t858, mul_sub(t759, t848, t729 * t852));
+    let t879 = neg_mul_add(t753, t855, t878);
+    let t880 = neg_mul_add(t739, t858, mul_sub(t757, t848, t727 * t852));
+    let t881 = neg_mul_add(t751, t855, t880);
+    let t882 = mul_sub(t872, t879, t881 * t870);
+    let t883 = neg_mul_add(t737, t867, mul_sub(t743, t848, t725 * t868));
+    let t884 = neg_mul_add(t749, t866, t883);
+    let t885 = mul_sub(t881, t874, t865 * t879);
+    let t886 = c(1.0) / mul_add(t860, t875, mul_add(t877, t882, t884 * t885));
+    let t887 = mul_add(t817, t853, mul_add(t807, t845, t812 * t854));
+    let t888 = mul_add(t817, t856, mul_add(t807, t847, t812 * t857));
+    let t889 = mul_add(t817, t850, mul_add(t807, t846, t812 * t851));
+    let t890 = neg_mul_add(t741, t888, mul_sub(t844, t848, t729 * t889));
+    let t891 = neg_mul_add(t753, t887, t890);
+    let t892 = neg_mul_add(t737, t888, mul_sub(t829, t848, t725 * t889));
+    let t893 = neg_mul_add(t749, t887, t892);
+    let t894 = neg_mul_add(t739, t888, mul_sub(t838, t848, t727 * t889));
+    let t895 = neg_mul_add(t751, t887, t894);
+    let t896 = mul_add(t893, t875, t895 * mul_sub(t884, t874, t877 * t870));
+    let t897 = t886 * mul_add(t891, mul_sub(t877, t872, t884 * t865), t896);
+    let t898 = mul_add(t893, t885, t895 * mul_sub(t877, t879, t860 * t874));
+    let t899 = t886 * mul_add(t891, mul_sub(t860, t865, t877 * t881), t898);
+    let t900 = mul_add(t893, t882, t895 * mul_sub(t860, t870, t884 * t879));
+    let t901 = t886 * mul_add(t891, mul_sub(t884, t881, t860 * t872), t900);
+    let t902 = neg_mul_add(t868, t899, neg_mul_add(t863, t901, t889));
+    let t903 = t849 * mul_sub(t852, t897, t902);
+    let t904 = -t901;
+    let t905 = neg_mul_add(t867, t899, neg_mul_add(t862, t901, t888));
+    let t906 = t849 * mul_sub(t858, t897, t905);
+    let t907 = -t899;
+    let t908 = neg_mul_add(t866, t899, neg_mul_add(t861, t901, t887));
+    let t909 = t849 * mul_sub(t855, t897, t908);
+    let t910 = -t897;
+    let axial_reaction = solve_after_attempt(
+        &[t903, t904, t906, t907, t909, t910],
         &[
             [t122, t128, t134, t140, t146, t152],
             [t124, t130, t136, t142, t148, t154],
             [t126, t132, t138, t144, t150, t156],
-            [t725, t728, t731, t734, t737, t740],
-            [t726, t729, t732, t735, t738, t741],
-            [t727, t730, t733, t736, t739, t742],
+            [t726, t732, t738, t744, t750, t756],
+            [t728, t734, t740, t746, t752, t758],
+            [t730, t736, t742, t748, t754, t760],
         ],
-        &[t789, t794, t799, t811, t820, t826],
+        &[t807, t812, t817, t829, t838, t844],
     );
     // leg 1: actuator forces F
-    let t827 = neg_mul_add(t613, t614, mul_add(t611, t612, t709));
-    inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t615, t620, t827);
+    let t911 = neg_mul_add(t613, t614, mul_add(t611, t612, t709));
+    inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t615, t620, t911);
     // leg 2: actuator forces F
-    let t828 = neg_mul_add(t629, t630, mul_add(t627, t628, t712));
-    inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t631, t636, t828);
+    let t912 = neg_mul_add(t629, t630, mul_add(t627, t628, t712));
+    inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t631, t636, t912);
     // leg 3: actuator forces F
-    let t829 = neg_mul_add(t645, t646, mul_add(t643, t644, t715));
-    inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t647, t652, t829);
+    let t913 = neg_mul_add(t645, t646, mul_add(t643, t644, t715));
+    inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t647, t652, t913);
     // leg 4: actuator forces F
-    let t830 = neg_mul_add(t661, t662, mul_add(t659, t660, t718));
-    inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t663, t668, t830);
+    let t914 = neg_mul_add(t661, t662, mul_add(t659, t660, t718));
+    inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t663, t668, t914);
     // leg 5: actuator forces F
-    let t831 = neg_mul_add(t677, t678, mul_add(t675, t676, t721));
-    inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t679, t684, t831);
+    let t915 = neg_mul_add(t677, t678, mul_add(t675, t676, t721));
+    inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t679, t684, t915);
     // leg 6: actuator forces F
-    let t832 = neg_mul_add(t693, t694, mul_add(t691, t692, t724));
-    inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t695, t700, t832);
+    let t916 = neg_mul_add(t693, t694, mul_add(t691, t692, t724));
+    inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t695, t700, t916);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -21459,54 +21544,119 @@ pub fn control<T: Scalar>(
         let t1119 = mul_add(platform_acceleration[2], t468, t1118);
         let t1120 = mul_add(platform_acceleration[3], t474, t1119);
         let t1121 = mul_sub(platform_acceleration[4], t548, t1120);
-        let t1122 = neg_mul_add(platform_acceleration[5], t551, t1121);
-        let t1123 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1096);
-        let t1124 = mul_sub(platform_acceleration[1], t552, t1123);
-        let t1125 = mul_sub(platform_acceleration[2], t489, t1124);
-        let t1126 = mul_add(platform_acceleration[3], t553, t1125);
-        let t1127 = mul_add(platform_acceleration[4], t508, t1126);
-        let t1128 = mul_sub(platform_acceleration[5], t556, t1127);
-        let t1129 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1101);
-        let t1130 = mul_add(platform_acceleration[1], t489, t1129);
-        let t1131 = mul_sub(platform_acceleration[2], t557, t1130);
-        let t1132 = mul_add(platform_acceleration[3], t558, t1131);
-        let t1133 = mul_sub(platform_acceleration[4], t559, t1132);
-        let t1134 = mul_sub(platform_acceleration[5], t533, t1133);
-        let t1135 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1136 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1135);
-        let t1137 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1136);
-        let t1138 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1139 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1138);
-        let t1140 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1139);
-        let t1141 = mul_add(platform_acceleration[0], t474, external_wrench[3] - t1106);
-        let t1142 = mul_add(platform_acceleration[1], t553, t1141);
-        let t1143 = mul_sub(platform_acceleration[2], t558, t1142);
-        let t1144 = mul_sub(platform_acceleration[3], t575, t1143);
-        let t1145 = mul_add(platform_acceleration[4], t583, t1144);
-        let t1146 = mul_add(platform_acceleration[5], t591, t1145);
-        let t1147 = mul_add(external_wrench[2], t1140, t1146);
-        let t1148 = mul_sub(external_wrench[1], t1137, t1147);
-        let t1149 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1150 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1149);
-        let t1151 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1150);
-        let t1152 = mul_sub(platform_acceleration[0], t548, external_wrench[4] - t1111);
-        let t1153 = mul_sub(platform_acceleration[1], t508, t1152);
-        let t1154 = mul_add(platform_acceleration[2], t559, t1153);
-        let t1155 = mul_add(platform_acceleration[3], t583, t1154);
-        let t1156 = mul_add(platform_acceleration[4], t606, t1155);
-        let t1157 = mul_add(platform_acceleration[5], t614, t1156);
-        let t1158 = mul_add(external_wrench[0], t1137, t1157);
-        let t1159 = mul_sub(external_wrench[2], t1151, t1158);
-        let t1160 = mul_add(platform_acceleration[0], t551, external_wrench[5] - t1116);
-        let t1161 = mul_sub(platform_acceleration[1], t556, t1160);
-        let t1162 = mul_add(platform_acceleration[2], t533, t1161);
-        let t1163 = mul_sub(platform_acceleration[3], t591, t1162);
-        let t1164 = mul_add(platform_acceleration[4], t614, t1163);
-        let t1165 = mul_add(platform_acceleration[5], t629, t1164);
-        let t1166 = mul_add(external_wrench[1], t1151, t1165);
-        let t1167 = mul_sub(external_wrench[0], t1140, t1166);
+        let t1122 = mul_sub(platform_acceleration[5], t551, t1121);
+        let t1123 = -t1122;
+        let t1124 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1096);
+        let t1125 = mul_sub(platform_acceleration[1], t552, t1124);
+        let t1126 = mul_sub(platform_acceleration[2], t489, t1125);
+        let t1127 = mul_add(platform_acceleration[3], t553, t1126);
+        let t1128 = mul_add(platform_acceleration[4], t508, t1127);
+        let t1129 = mul_sub(platform_acceleration[5], t556, t1128);
+        let t1130 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1101);
+        let t1131 = mul_add(platform_acceleration[1], t489, t1130);
+        let t1132 = mul_sub(platform_acceleration[2], t557, t1131);
+        let t1133 = mul_add(platform_acceleration[3], t558, t1132);
+        let t1134 = mul_sub(platform_acceleration[4], t559, t1133);
+        let t1135 = mul_sub(platform_acceleration[5], t533, t1134);
+        let t1136 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1137 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1136);
+        let t1138 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1137);
+        let t1139 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1140 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1139);
+        let t1141 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1140);
+        let t1142 = mul_add(platform_acceleration[0], t474, external_wrench[3] - t1106);
+        let t1143 = mul_add(platform_acceleration[1], t553, t1142);
+        let t1144 = mul_sub(platform_acceleration[2], t558, t1143);
+        let t1145 = mul_sub(platform_acceleration[3], t575, t1144);
+        let t1146 = mul_add(platform_acceleration[4], t583, t1145);
+        let t1147 = mul_add(platform_acceleration[5], t591, t1146);
+        let t1148 = mul_add(external_wrench[2], t1141, t1147);
+        let t1149 = mul_sub(external_wrench[1], t1138, t1148);
+        let t1150 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1151 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1150);
+        let t1152 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1151);
+        let t1153 = mul_sub(platform_acceleration[0], t548, external_wrench[4] - t1111);
+        let t1154 = mul_sub(platform_acceleration[1], t508, t1153);
+        let t1155 = mul_add(platform_acceleration[2], t559, t1154);
+        let t1156 = mul_add(platform_acceleration[3], t583, t1155);
+        let t1157 = mul_add(platform_acceleration[4], t606, t1156);
+        let t1158 = mul_add(platform_acceleration[5], t614, t1157);
+        let t1159 = mul_add(external_wrench[0], t1138, t1158);
+        let t1160 = mul_sub(external_wrench[2], t1152, t1159);
+        let t1161 = mul_add(platform_acceleration[0], t551, external_wrench[5] - t1116);
+        let t1162 = mul_sub(platform_acceleration[1], t556, t1161);
+        let t1163 = mul_add(platform_acceleration[2], t533, t1162);
+        let t1164 = mul_sub(platform_acceleration[3], t591, t1163);
+        let t1165 = mul_add(platform_acceleration[4], t614, t1164);
+        let t1166 = mul_add(platform_acceleration[5], t629, t1165);
+        let t1167 = mul_add(external_wrench[1], t1152, t1166);
+        let t1168 = mul_sub(external_wrench[0], t1141, t1167);
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1169 = mul_sub(t196, t210, t198 * t208);
+        let t1170 = mul_sub(t208, t222, t210 * t220);
+        let t1171 = mul_sub(t198, t220, t196 * t222);
+        let t1172 = mul_add(t218, t1169, mul_add(t194, t1170, t206 * t1171));
+        let t1173 = c(1.0) / t1172;
+        let t1174 = mul_sub(t206, t220, t208 * t218);
+        let t1175 = mul_sub(t210, t218, t206 * t222);
+        let t1176 = mul_add(t228, t1174, mul_add(t224, t1170, t226 * t1175));
+        let t1177 = mul_sub(t194, t208, t196 * t206);
+        let t1178 = mul_sub(t198, t206, t194 * t210);
+        let t1179 = mul_add(t228, t1177, mul_add(t224, t1169, t226 * t1178));
+        let t1180 = mul_sub(t196, t218, t194 * t220);
+        let t1181 = mul_sub(t194, t222, t198 * t218);
+        let t1182 = mul_add(t228, t1180, mul_add(t224, t1171, t226 * t1181));
+        let t1183 = mul_sub(t235, t1182, mul_sub(t244, t1172, t229 * t1176));
+        let t1184 = mul_add(t241, t1179, t1183);
+        let t1185 = mul_add(t204, t1177, mul_add(t200, t1169, t202 * t1178));
+        let t1186 = mul_add(t204, t1180, mul_add(t200, t1171, t202 * t1181));
+        let t1187 = mul_add(t204, t1174, mul_add(t200, t1170, t202 * t1175));
+        let t1188 = mul_sub(t236, t1186, mul_sub(t233, t1172, t230 * t1187));
+        let t1189 = mul_add(t242, t1185, t1188);
+        let t1190 = mul_add(t216, t1177, mul_add(t212, t1169, t214 * t1178));
+        let t1191 = mul_add(t216, t1180, mul_add(t212, t1171, t214 * t1181));
+        let t1192 = mul_add(t216, t1174, mul_add(t212, t1170, t214 * t1175));
+        let t1193 = mul_sub(t237, t1191, mul_sub(t240, t1172, t231 * t1192));
+        let t1194 = mul_add(t243, t1190, t1193);
+        let t1195 = mul_sub(t236, t1191, mul_sub(t239, t1172, t230 * t1192));
+        let t1196 = mul_add(t242, t1190, t1195);
+        let t1197 = mul_sub(t237, t1186, mul_sub(t234, t1172, t231 * t1187));
+        let t1198 = mul_add(t243, t1185, t1197);
+        let t1199 = mul_sub(t1189, t1194, t1196 * t1198);
+        let t1200 = mul_sub(t235, t1186, mul_sub(t232, t1172, t229 * t1187));
+        let t1201 = mul_add(t241, t1185, t1200);
+        let t1202 = mul_sub(t237, t1182, mul_sub(t246, t1172, t231 * t1176));
+        let t1203 = mul_add(t243, t1179, t1202);
+        let t1204 = mul_sub(t236, t1182, mul_sub(t245, t1172, t230 * t1176));
+        let t1205 = mul_add(t242, t1179, t1204);
+        let t1206 = mul_sub(t1196, t1203, t1205 * t1194);
+        let t1207 = mul_sub(t235, t1191, mul_sub(t238, t1172, t229 * t1192));
+        let t1208 = mul_add(t241, t1190, t1207);
+        let t1209 = mul_sub(t1205, t1198, t1189 * t1203);
+        let t1210 = c(1.0) / mul_add(t1184, t1199, mul_add(t1201, t1206, t1208 * t1209));
+        let t1211 = mul_sub(t1135, t1177, mul_sub(t1122, t1169, t1129 * t1178));
+        let t1212 = mul_sub(t1135, t1180, mul_sub(t1122, t1171, t1129 * t1181));
+        let t1213 = mul_sub(t1135, t1174, mul_sub(t1122, t1170, t1129 * t1175));
+        let t1214 = mul_sub(t237, t1212, mul_sub(t1168, t1172, t231 * t1213));
+        let t1215 = mul_add(t243, t1211, t1214);
+        let t1216 = mul_sub(t235, t1212, mul_sub(t1149, t1172, t229 * t1213));
+        let t1217 = mul_add(t241, t1211, t1216);
+        let t1218 = mul_sub(t236, t1212, mul_sub(t1160, t1172, t230 * t1213));
+        let t1219 = mul_add(t242, t1211, t1218);
+        let t1220 = mul_add(t1217, t1199, t1219 * mul_sub(t1208, t1198, t1201 * t1194));
+        let t1221 = t1210 * mul_add(t1215, mul_sub(t1201, t1196, t1208 * t1189), t1220);
+        let t1222 = mul_add(t1217, t1209, t1219 * mul_sub(t1201, t1203, t1184 * t1198));
+        let t1223 = t1210 * mul_add(t1215, mul_sub(t1184, t1189, t1201 * t1205), t1222);
+        let t1224 = mul_add(t1217, t1206, t1219 * mul_sub(t1184, t1194, t1208 * t1203));
+        let t1225 = t1210 * mul_add(t1215, mul_sub(t1208, t1205, t1184 * t1196), t1224);
+        let t1226 = neg_mul_add(t1192, t1223, neg_mul_add(t1187, t1225, t1213));
+        let t1227 = t1173 * neg_mul_add(t1176, t1221, t1226);
+        let t1228 = neg_mul_add(t1191, t1223, neg_mul_add(t1186, t1225, t1212));
+        let t1229 = t1173 * neg_mul_add(t1182, t1221, t1228);
+        let t1230 = neg_mul_add(t1190, t1223, neg_mul_add(t1185, t1225, t1211));
+        let t1231 = t1173 * neg_mul_add(t1179, t1221, t1230);
+        let axial_reaction = solve_after_attempt(
+            &[t1227, t1225, t1229, t1223, t1231, t1221],
             &[
                 [t194, t200, t206, t212, t218, t224],
                 [t196, t202, t208, t214, t220, t226],
@@ -21515,7 +21665,7 @@ pub fn control<T: Scalar>(
                 [t230, t233, t236, t239, t242, t245],
                 [t231, t234, t237, t240, t243, t246],
             ],
-            &[t1122, t1128, t1134, t1148, t1159, t1167],
+            &[t1123, t1129, t1135, t1149, t1160, t1168],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -21562,17 +21712,19 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t122, t124, t126, t128, t130,
-        t132, t134, t136, t138, t140, t142, t144, t146, t148, t150, t152, t154, t156, t190, t197,
-        t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427, t429, t431, t627,
-        t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646, t647, t648, t649, t662,
-        t663, t664, t665, t685, t687, t689, t691, t692, t705, t706, t707, t708, t728, t730, t732,
-        t734, t735, t748, t749, t750, t751, t771, t773, t775, t777, t778, t791, t792, t793, t794,
-        t814, t816, t818, t820, t821, t834, t835, t836, t837, t857, t859, t861, t863, t864, t877,
-        t878, t879, t880, t900, t902, t904, t906, t909, t912, t915, t918, t921, t924, t925, t926,
-        t927, t928, t929, t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941,
-        t942, t955, t956, t957, t958, t959, t960, t961, t962, t963, t964, t965, t966, t968, t970,
-        t972,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t121, t122, t123, t124, t125,
+        t126, t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138, t139, t140,
+        t141, t142, t143, t144, t145, t146, t147, t148, t149, t150, t151, t152, t153, t154, t155,
+        t156, t190, t197, t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427,
+        t429, t431, t627, t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646, t647,
+        t648, t649, t662, t663, t664, t665, t685, t687, t689, t691, t692, t705, t706, t707, t708,
+        t728, t730, t732, t734, t735, t748, t749, t750, t751, t771, t773, t775, t777, t778, t791,
+        t792, t793, t794, t814, t816, t818, t820, t821, t834, t835, t836, t837, t857, t859, t861,
+        t863, t864, t877, t878, t879, t880, t900, t902, t904, t906, t909, t912, t915, t918, t921,
+        t924, t925, t926, t927, t928, t929, t930, t931, t932, t933, t934, t935, t936, t937, t938,
+        t939, t940, t941, t942, t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953,
+        t954, t955, t956, t957, t958, t959, t960, t973, t974, t975, t976, t977, t978, t979, t980,
+        t981, t982, t983, t984, t986, t988, t990,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -22607,181 +22759,269 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t923 = parameters.axial_damping[5] * t358;
         let t924 = mul_sub(parameters.axial_stiffness[5], t922, t923);
         // leg 1: row of the actuator Jacobian in base coordinates
-        let t925 = neg_mul_add(t42, t125, t45 * t123);
-        let t926 = neg_mul_add(t45, t121, t39 * t125);
-        let t927 = neg_mul_add(t39, t123, t42 * t121);
+        let t925 = mul_sub(t42, t125, t45 * t123);
+        let t926 = -t925;
+        let t927 = mul_sub(t45, t121, t39 * t125);
+        let t928 = -t927;
+        let t929 = mul_sub(t39, t123, t42 * t121);
+        let t930 = -t929;
         // leg 2: row of the actuator Jacobian in base coordinates
-        let t928 = neg_mul_add(t54, t131, t57 * t129);
-        let t929 = neg_mul_add(t57, t127, t51 * t131);
-        let t930 = neg_mul_add(t51, t129, t54 * t127);
+        let t931 = mul_sub(t54, t131, t57 * t129);
+        let t932 = -t931;
+        let t933 = mul_sub(t57, t127, t51 * t131);
+        let t934 = -t933;
+        let t935 = mul_sub(t51, t129, t54 * t127);
+        let t936 = -t935;
         // leg 3: row of the actuator Jacobian in base coordinates
-        let t931 = neg_mul_add(t66, t137, t69 * t135);
-        let t932 = neg_mul_add(t69, t133, t63 * t137);
-        let t933 = neg_mul_add(t63, t135, t66 * t133);
+        let t937 = mul_sub(t66, t137, t69 * t135);
+        let t938 = -t937;
+        let t939 = mul_sub(t69, t133, t63 * t137);
+        let t940 = -t939;
+        let t941 = mul_sub(t63, t135, t66 * t133);
+        let t942 = -t941;
         // leg 4: row of the actuator Jacobian in base coordinates
-        let t934 = neg_mul_add(t78, t143, t81 * t141);
-        let t935 = neg_mul_add(t81, t139, t75 * t143);
-        let t936 = neg_mul_add(t75, t141, t78 * t139);
+        let t943 = mul_sub(t78, t143, t81 * t141);
+        let t944 = -t943;
+        let t945 = mul_sub(t81, t139, t75 * t143);
+        let t946 = -t945;
+        let t947 = mul_sub(t75, t141, t78 * t139);
+        let t948 = -t947;
         // leg 5: row of the actuator Jacobian in base coordinates
-        let t937 = neg_mul_add(t90, t149, t93 * t147);
-        let t938 = neg_mul_add(t93, t145, t87 * t149);
-        let t939 = neg_mul_add(t87, t147, t90 * t145);
+        let t949 = mul_sub(t90, t149, t93 * t147);
+        let t950 = -t949;
+        let t951 = mul_sub(t93, t145, t87 * t149);
+        let t952 = -t951;
+        let t953 = mul_sub(t87, t147, t90 * t145);
+        let t954 = -t953;
         // leg 6: row of the actuator Jacobian in base coordinates
-        let t940 = neg_mul_add(t102, t155, t105 * t153);
-        let t941 = neg_mul_add(t105, t151, t99 * t155);
-        let t942 = neg_mul_add(t99, t153, t102 * t151);
+        let t955 = mul_sub(t102, t155, t105 * t153);
+        let t956 = -t955;
+        let t957 = mul_sub(t105, t151, t99 * t155);
+        let t958 = -t957;
+        let t959 = mul_sub(t99, t153, t102 * t151);
+        let t960 = -t959;
         // leg 1: moment about the platform origin of the leg's inertia at its joint
-        let t943 = mul_sub(t42, t691, t45 * t689);
-        let t944 = mul_sub(t45, t687, t39 * t691);
-        let t945 = mul_sub(t39, t689, t42 * t687);
+        let t961 = mul_sub(t42, t691, t45 * t689);
+        let t962 = mul_sub(t45, t687, t39 * t691);
+        let t963 = mul_sub(t39, t689, t42 * t687);
         // leg 2: moment about the platform origin of the leg's inertia at its joint
-        let t946 = mul_sub(t54, t734, t57 * t732);
-        let t947 = mul_sub(t57, t730, t51 * t734);
-        let t948 = mul_sub(t51, t732, t54 * t730);
+        let t964 = mul_sub(t54, t734, t57 * t732);
+        let t965 = mul_sub(t57, t730, t51 * t734);
+        let t966 = mul_sub(t51, t732, t54 * t730);
         // leg 3: moment about the platform origin of the leg's inertia at its joint
-        let t949 = mul_sub(t66, t777, t69 * t775);
-        let t950 = mul_sub(t69, t773, t63 * t777);
-        let t951 = mul_sub(t63, t775, t66 * t773);
+        let t967 = mul_sub(t66, t777, t69 * t775);
+        let t968 = mul_sub(t69, t773, t63 * t777);
+        let t969 = mul_sub(t63, t775, t66 * t773);
         // leg 5: moment about the platform origin of the leg's inertia at its joint
-        let t952 = mul_sub(t90, t863, t93 * t861);
-        let t953 = mul_sub(t93, t859, t87 * t863);
-        let t954 = mul_sub(t87, t861, t90 * t859);
+        let t970 = mul_sub(t90, t863, t93 * t861);
+        let t971 = mul_sub(t93, t859, t87 * t863);
+        let t972 = mul_sub(t87, t861, t90 * t859);
         // inertia force less weight, without the actuators' own shares
-        let t955 = mul_add(t211, t452, mul_add(t197, t444, t204 * t448));
-        let t956 = mul_add(t211, t461, mul_add(t197, t455, t204 * t458));
-        let t957 = mul_add(t211, t467, mul_add(t197, t463, t204 * t465));
+        let t973 = mul_add(t211, t452, mul_add(t197, t444, t204 * t448));
+        let t974 = mul_add(t211, t461, mul_add(t197, t455, t204 * t458));
+        let t975 = mul_add(t211, t467, mul_add(t197, t463, t204 * t465));
         // first moments by platform coordinate of the payload's inertia force
-        let t958 = mul_add(t257, t452, mul_add(t229, t444, t243 * t448));
-        let t959 = mul_add(t286, t452, mul_add(t243, t444, t272 * t448));
-        let t960 = mul_add(t301, t452, mul_add(t257, t444, t286 * t448));
-        let t961 = mul_add(t257, t461, mul_add(t229, t455, t243 * t458));
-        let t962 = mul_add(t286, t461, mul_add(t243, t455, t272 * t458));
-        let t963 = mul_add(t301, t461, mul_add(t257, t455, t286 * t458));
-        let t964 = mul_add(t257, t467, mul_add(t229, t463, t243 * t465));
-        let t965 = mul_add(t286, t467, mul_add(t243, t463, t272 * t465));
-        let t966 = mul_add(t301, t467, mul_add(t257, t463, t286 * t465));
+        let t976 = mul_add(t257, t452, mul_add(t229, t444, t243 * t448));
+        let t977 = mul_add(t286, t452, mul_add(t243, t444, t272 * t448));
+        let t978 = mul_add(t301, t452, mul_add(t257, t444, t286 * t448));
+        let t979 = mul_add(t257, t461, mul_add(t229, t455, t243 * t458));
+        let t980 = mul_add(t286, t461, mul_add(t243, t455, t272 * t458));
+        let t981 = mul_add(t301, t461, mul_add(t257, t455, t286 * t458));
+        let t982 = mul_add(t257, t467, mul_add(t229, t463, t243 * t465));
+        let t983 = mul_add(t286, t467, mul_add(t243, t463, t272 * t465));
+        let t984 = mul_add(t301, t467, mul_add(t257, t463, t286 * t465));
         // moment of the legs' inertia at their joints about the platform origin
-        let t967 = neg_mul_add(t81, t818, mul_add(t78, t820, t952));
-        let t968 = t949 + (t943 + t946) + t967;
-        let t969 = neg_mul_add(t75, t820, mul_add(t81, t816, t953));
-        let t970 = t950 + (t944 + t947) + t969;
-        let t971 = neg_mul_add(t78, t816, mul_add(t75, t818, t954));
-        let t972 = t951 + (t945 + t948) + t971;
+        let t985 = neg_mul_add(t81, t818, mul_add(t78, t820, t970));
+        let t986 = t967 + (t961 + t964) + t985;
+        let t987 = neg_mul_add(t75, t820, mul_add(t81, t816, t971));
+        let t988 = t968 + (t962 + t965) + t987;
+        let t989 = neg_mul_add(t78, t816, mul_add(t75, t818, t972));
+        let t990 = t969 + (t963 + t966) + t989;
         (
-            t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t122, t124, t126, t128,
-            t130, t132, t134, t136, t138, t140, t142, t144, t146, t148, t150, t152, t154, t156,
-            t190, t197, t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427,
-            t429, t431, t627, t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646,
-            t647, t648, t649, t662, t663, t664, t665, t685, t687, t689, t691, t692, t705, t706,
-            t707, t708, t728, t730, t732, t734, t735, t748, t749, t750, t751, t771, t773, t775,
-            t777, t778, t791, t792, t793, t794, t814, t816, t818, t820, t821, t834, t835, t836,
-            t837, t857, t859, t861, t863, t864, t877, t878, t879, t880, t900, t902, t904, t906,
-            t909, t912, t915, t918, t921, t924, t925, t926, t927, t928, t929, t930, t931, t932,
-            t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t955, t956, t957, t958,
-            t959, t960, t961, t962, t963, t964, t965, t966, t968, t970, t972,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t121, t122, t123, t124,
+            t125, t126, t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138,
+            t139, t140, t141, t142, t143, t144, t145, t146, t147, t148, t149, t150, t151, t152,
+            t153, t154, t155, t156, t190, t197, t204, t211, t214, t229, t243, t257, t272, t286,
+            t301, t313, t316, t427, t429, t431, t627, t629, t633, t634, t635, t636, t640, t641,
+            t642, t643, t644, t646, t647, t648, t649, t662, t663, t664, t665, t685, t687, t689,
+            t691, t692, t705, t706, t707, t708, t728, t730, t732, t734, t735, t748, t749, t750,
+            t751, t771, t773, t775, t777, t778, t791, t792, t793, t794, t814, t816, t818, t820,
+            t821, t834, t835, t836, t837, t857, t859, t861, t863, t864, t877, t878, t879, t880,
+            t900, t902, t904, t906, t909, t912, t915, t918, t921, t924, t925, t926, t927, t928,
+            t929, t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942,
+            t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953, t954, t955, t956,
+            t957, t958, t959, t960, t973, t974, t975, t976, t977, t978, t979, t980, t981, t982,
+            t983, t984, t986, t988, t990,
         )
     };
     {
         // inertia less external wrench that the actuators must balance
-        let t973 = mul_add(t211, t635, mul_add(t197, t633, t204 * t634));
-        let t974 = t773 + (t730 + (t687 + (t955 + mul_sub(t190, t427, t973))));
-        let t975 = base_rotation[1][0] * external_wrench[1];
-        let t976 = mul_add(base_rotation[0][0], external_wrench[0], t975);
-        let t977 = mul_add(base_rotation[2][0], external_wrench[2], t976);
-        let t978 = t902 + (t859 + (t816 + t974)) - t977;
-        let t979 = mul_add(t211, t642, mul_add(t197, t640, t204 * t641));
-        let t980 = t775 + (t732 + (t689 + (t956 + mul_sub(t190, t429, t979))));
-        let t981 = base_rotation[1][1] * external_wrench[1];
-        let t982 = mul_add(base_rotation[0][1], external_wrench[0], t981);
-        let t983 = mul_add(base_rotation[2][1], external_wrench[2], t982);
-        let t984 = t904 + (t861 + (t818 + t980)) - t983;
-        let t985 = mul_add(t211, t648, mul_add(t197, t646, t204 * t647));
-        let t986 = t777 + (t734 + (t691 + (t957 + mul_sub(t190, t431, t985))));
-        let t987 = base_rotation[1][2] * external_wrench[1];
-        let t988 = mul_add(base_rotation[0][2], external_wrench[0], t987);
-        let t989 = mul_add(base_rotation[2][2], external_wrench[2], t988);
-        let t990 = t906 + (t863 + (t820 + t986)) - t989;
-        let t991 = mul_add(t286, t648, mul_add(t243, t646, t272 * t647));
-        let t992 = mul_add(t204, t431, t991) - t965;
-        let t993 = neg_mul_add(parameters.payload_com[1], t989, t992);
-        let t994 = mul_add(t286, t642, mul_add(t243, t640, t272 * t641));
-        let t995 = mul_add(t204, t429, t994) - t962;
-        let t996 = neg_mul_add(parameters.payload_com[1], t983, t995);
-        let t997 = mul_sub(t15, t993, t24 * t996);
-        let t998 = mul_add(t257, t642, mul_add(t229, t640, t243 * t641));
-        let t999 = mul_add(t197, t429, t998) - t961;
-        let t1000 = neg_mul_add(parameters.payload_com[0], t983, t999);
-        let t1001 = mul_add(t257, t648, mul_add(t229, t646, t243 * t647));
-        let t1002 = mul_add(t197, t431, t1001) - t964;
-        let t1003 = neg_mul_add(parameters.payload_com[0], t989, t1002);
-        let t1004 = mul_add(t301, t648, mul_add(t257, t646, t286 * t647));
-        let t1005 = mul_add(t211, t431, t1004) - t966;
-        let t1006 = neg_mul_add(parameters.payload_com[2], t989, t1005);
-        let t1007 = mul_add(t301, t642, mul_add(t257, t640, t286 * t641));
-        let t1008 = mul_add(t211, t429, t1007) - t963;
-        let t1009 = neg_mul_add(parameters.payload_com[2], t983, t1008);
-        let t1010 = mul_add(t12, t1003, mul_sub(t18, t1006, t27 * t1009));
-        let t1011 = mul_add(t102, t906, t997 + neg_mul_add(t21, t1000, t1010));
-        let t1012 = t968 + neg_mul_add(t105, t904, t1011);
-        let t1013 = neg_mul_add(t214, mul_sub(t316, t629, t644), t1012);
-        let t1014 = base_rotation[1][0] * external_wrench[4];
-        let t1015 = mul_add(base_rotation[0][0], external_wrench[3], t1014);
-        let t1016 = t1013 - mul_add(base_rotation[2][0], external_wrench[5], t1015);
-        let t1017 = mul_add(t286, t635, mul_add(t243, t633, t272 * t634));
-        let t1018 = mul_add(t204, t427, t1017) - t959;
-        let t1019 = neg_mul_add(parameters.payload_com[1], t977, t1018);
-        let t1020 = mul_sub(t24, t1019, t6 * t993);
-        let t1021 = mul_add(t257, t635, mul_add(t229, t633, t243 * t634));
-        let t1022 = mul_add(t197, t427, t1021) - t958;
-        let t1023 = neg_mul_add(parameters.payload_com[0], t977, t1022);
-        let t1024 = mul_add(t301, t635, mul_add(t257, t633, t286 * t634));
-        let t1025 = mul_add(t211, t427, t1024) - t960;
-        let t1026 = neg_mul_add(parameters.payload_com[2], t977, t1025);
-        let t1027 = mul_add(t21, t1023, mul_sub(t27, t1026, t9 * t1006));
-        let t1028 = mul_add(t105, t902, t1020 + neg_mul_add(t3, t1003, t1027));
-        let t1029 = base_rotation[1][1] * external_wrench[4];
-        let t1030 = mul_add(base_rotation[0][1], external_wrench[3], t1029);
-        let t1031 = mul_add(base_rotation[2][1], external_wrench[5], t1030);
-        let t1032 = mul_sub(t214, mul_sub(t313, t629, t643), t1031);
-        let t1033 = t970 + neg_mul_add(t99, t906, t1028) + t1032;
-        let t1034 = mul_sub(t6, t996, t15 * t1019);
-        let t1035 = mul_add(t3, t1000, mul_sub(t9, t1009, t18 * t1026));
-        let t1036 = mul_add(t99, t904, t1034 + neg_mul_add(t12, t1023, t1035));
-        let t1037 = t972 + neg_mul_add(t102, t902, t1036);
-        let t1038 = neg_mul_add(t214, mul_sub(t313, t627, t636), t1037);
-        let t1039 = base_rotation[1][2] * external_wrench[4];
-        let t1040 = mul_add(base_rotation[0][2], external_wrench[3], t1039);
-        let t1041 = t1038 - mul_add(base_rotation[2][2], external_wrench[5], t1040);
+        let t991 = mul_add(t211, t635, mul_add(t197, t633, t204 * t634));
+        let t992 = t773 + (t730 + (t687 + (t973 + mul_sub(t190, t427, t991))));
+        let t993 = base_rotation[1][0] * external_wrench[1];
+        let t994 = mul_add(base_rotation[0][0], external_wrench[0], t993);
+        let t995 = mul_add(base_rotation[2][0], external_wrench[2], t994);
+        let t996 = t902 + (t859 + (t816 + t992)) - t995;
+        let t997 = mul_add(t211, t642, mul_add(t197, t640, t204 * t641));
+        let t998 = t775 + (t732 + (t689 + (t974 + mul_sub(t190, t429, t997))));
+        let t999 = base_rotation[1][1] * external_wrench[1];
+        let t1000 = mul_add(base_rotation[0][1], external_wrench[0], t999);
+        let t1001 = mul_add(base_rotation[2][1], external_wrench[2], t1000);
+        let t1002 = t904 + (t861 + (t818 + t998)) - t1001;
+        let t1003 = mul_add(t211, t648, mul_add(t197, t646, t204 * t647));
+        let t1004 = t777 + (t734 + (t691 + (t975 + mul_sub(t190, t431, t1003))));
+        let t1005 = base_rotation[1][2] * external_wrench[1];
+        let t1006 = mul_add(base_rotation[0][2], external_wrench[0], t1005);
+        let t1007 = mul_add(base_rotation[2][2], external_wrench[2], t1006);
+        let t1008 = t906 + (t863 + (t820 + t1004)) - t1007;
+        let t1009 = mul_add(t286, t648, mul_add(t243, t646, t272 * t647));
+        let t1010 = mul_add(t204, t431, t1009) - t983;
+        let t1011 = neg_mul_add(parameters.payload_com[1], t1007, t1010);
+        let t1012 = mul_add(t286, t642, mul_add(t243, t640, t272 * t641));
+        let t1013 = mul_add(t204, t429, t1012) - t980;
+        let t1014 = neg_mul_add(parameters.payload_com[1], t1001, t1013);
+        let t1015 = mul_sub(t15, t1011, t24 * t1014);
+        let t1016 = mul_add(t257, t642, mul_add(t229, t640, t243 * t641));
+        let t1017 = mul_add(t197, t429, t1016) - t979;
+        let t1018 = neg_mul_add(parameters.payload_com[0], t1001, t1017);
+        let t1019 = mul_add(t257, t648, mul_add(t229, t646, t243 * t647));
+        let t1020 = mul_add(t197, t431, t1019) - t982;
+        let t1021 = neg_mul_add(parameters.payload_com[0], t1007, t1020);
+        let t1022 = mul_add(t301, t648, mul_add(t257, t646, t286 * t647));
+        let t1023 = mul_add(t211, t431, t1022) - t984;
+        let t1024 = neg_mul_add(parameters.payload_com[2], t1007, t1023);
+        let t1025 = mul_add(t301, t642, mul_add(t257, t640, t286 * t641));
+        let t1026 = mul_add(t211, t429, t1025) - t981;
+        let t1027 = neg_mul_add(parameters.payload_com[2], t1001, t1026);
+        let t1028 = mul_add(t12, t1021, mul_sub(t18, t1024, t27 * t1027));
+        let t1029 = mul_add(t102, t906, t1015 + neg_mul_add(t21, t1018, t1028));
+        let t1030 = t986 + neg_mul_add(t105, t904, t1029);
+        let t1031 = neg_mul_add(t214, mul_sub(t316, t629, t644), t1030);
+        let t1032 = base_rotation[1][0] * external_wrench[4];
+        let t1033 = mul_add(base_rotation[0][0], external_wrench[3], t1032);
+        let t1034 = t1031 - mul_add(base_rotation[2][0], external_wrench[5], t1033);
+        let t1035 = mul_add(t286, t635, mul_add(t243, t633, t272 * t634));
+        let t1036 = mul_add(t204, t427, t1035) - t977;
+        let t1037 = neg_mul_add(parameters.payload_com[1], t995, t1036);
+        let t1038 = mul_sub(t24, t1037, t6 * t1011);
+        let t1039 = mul_add(t257, t635, mul_add(t229, t633, t243 * t634));
+        let t1040 = mul_add(t197, t427, t1039) - t976;
+        let t1041 = neg_mul_add(parameters.payload_com[0], t995, t1040);
+        let t1042 = mul_add(t301, t635, mul_add(t257, t633, t286 * t634));
+        let t1043 = mul_add(t211, t427, t1042) - t978;
+        let t1044 = neg_mul_add(parameters.payload_com[2], t995, t1043);
+        let t1045 = mul_add(t21, t1041, mul_sub(t27, t1044, t9 * t1024));
+        let t1046 = mul_add(t105, t902, t1038 + neg_mul_add(t3, t1021, t1045));
+        let t1047 = base_rotation[1][1] * external_wrench[4];
+        let t1048 = mul_add(base_rotation[0][1], external_wrench[3], t1047);
+        let t1049 = mul_add(base_rotation[2][1], external_wrench[5], t1048);
+        let t1050 = mul_sub(t214, mul_sub(t313, t629, t643), t1049);
+        let t1051 = t988 + neg_mul_add(t99, t906, t1046) + t1050;
+        let t1052 = mul_sub(t6, t1014, t15 * t1037);
+        let t1053 = mul_add(t3, t1018, mul_sub(t9, t1027, t18 * t1044));
+        let t1054 = mul_add(t99, t904, t1052 + neg_mul_add(t12, t1041, t1053));
+        let t1055 = t990 + neg_mul_add(t102, t902, t1054);
+        let t1056 = neg_mul_add(t214, mul_sub(t313, t627, t636), t1055);
+        let t1057 = base_rotation[1][2] * external_wrench[4];
+        let t1058 = mul_add(base_rotation[0][2], external_wrench[3], t1057);
+        let t1059 = t1056 - mul_add(base_rotation[2][2], external_wrench[5], t1058);
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1060 = mul_sub(t123, t137, t125 * t135);
+        let t1061 = mul_sub(t135, t149, t137 * t147);
+        let t1062 = mul_sub(t125, t147, t123 * t149);
+        let t1063 = mul_add(t145, t1060, mul_add(t121, t1061, t133 * t1062));
+        let t1064 = c(1.0) / t1063;
+        let t1065 = mul_sub(t133, t147, t135 * t145);
+        let t1066 = mul_sub(t137, t145, t133 * t149);
+        let t1067 = mul_add(t155, t1065, mul_add(t151, t1061, t153 * t1066));
+        let t1068 = mul_sub(t121, t135, t123 * t133);
+        let t1069 = mul_sub(t125, t133, t121 * t137);
+        let t1070 = mul_add(t155, t1068, mul_add(t151, t1060, t153 * t1069));
+        let t1071 = mul_sub(t123, t145, t121 * t147);
+        let t1072 = mul_sub(t121, t149, t125 * t145);
+        let t1073 = mul_add(t155, t1071, mul_add(t151, t1062, t153 * t1072));
+        let t1074 = neg_mul_add(t937, t1073, mul_sub(t955, t1063, t925 * t1067));
+        let t1075 = neg_mul_add(t949, t1070, t1074);
+        let t1076 = mul_add(t131, t1068, mul_add(t127, t1060, t129 * t1069));
+        let t1077 = mul_add(t131, t1071, mul_add(t127, t1062, t129 * t1072));
+        let t1078 = mul_add(t131, t1065, mul_add(t127, t1061, t129 * t1066));
+        let t1079 = neg_mul_add(t939, t1077, mul_sub(t933, t1063, t927 * t1078));
+        let t1080 = neg_mul_add(t951, t1076, t1079);
+        let t1081 = mul_add(t143, t1068, mul_add(t139, t1060, t141 * t1069));
+        let t1082 = mul_add(t143, t1071, mul_add(t139, t1062, t141 * t1072));
+        let t1083 = mul_add(t143, t1065, mul_add(t139, t1061, t141 * t1066));
+        let t1084 = neg_mul_add(t941, t1082, mul_sub(t947, t1063, t929 * t1083));
+        let t1085 = neg_mul_add(t953, t1081, t1084);
+        let t1086 = neg_mul_add(t939, t1082, mul_sub(t945, t1063, t927 * t1083));
+        let t1087 = neg_mul_add(t951, t1081, t1086);
+        let t1088 = neg_mul_add(t941, t1077, mul_sub(t935, t1063, t929 * t1078));
+        let t1089 = neg_mul_add(t953, t1076, t1088);
+        let t1090 = mul_sub(t1080, t1085, t1087 * t1089);
+        let t1091 = neg_mul_add(t937, t1077, mul_sub(t931, t1063, t925 * t1078));
+        let t1092 = neg_mul_add(t949, t1076, t1091);
+        let t1093 = neg_mul_add(t941, t1073, mul_sub(t959, t1063, t929 * t1067));
+        let t1094 = neg_mul_add(t953, t1070, t1093);
+        let t1095 = neg_mul_add(t939, t1073, mul_sub(t957, t1063, t927 * t1067));
+        let t1096 = neg_mul_add(t951, t1070, t1095);
+        let t1097 = mul_sub(t1087, t1094, t1096 * t1085);
+        let t1098 = neg_mul_add(t937, t1082, mul_sub(t943, t1063, t925 * t1083));
+        let t1099 = neg_mul_add(t949, t1081, t1098);
+        let t1100 = mul_sub(t1096, t1089, t1080 * t1094);
+        let t1101 = c(1.0) / mul_add(t1075, t1090, mul_add(t1092, t1097, t1099 * t1100));
+        let t1102 = mul_add(t1008, t1068, mul_add(t996, t1060, t1002 * t1069));
+        let t1103 = mul_add(t1008, t1071, mul_add(t996, t1062, t1002 * t1072));
+        let t1104 = mul_add(t1008, t1065, mul_add(t996, t1061, t1002 * t1066));
+        let t1105 = neg_mul_add(t941, t1103, mul_sub(t1059, t1063, t929 * t1104));
+        let t1106 = neg_mul_add(t953, t1102, t1105);
+        let t1107 = neg_mul_add(t937, t1103, mul_sub(t1034, t1063, t925 * t1104));
+        let t1108 = neg_mul_add(t949, t1102, t1107);
+        let t1109 = neg_mul_add(t939, t1103, mul_sub(t1051, t1063, t927 * t1104));
+        let t1110 = neg_mul_add(t951, t1102, t1109);
+        let t1111 = mul_add(t1108, t1090, t1110 * mul_sub(t1099, t1089, t1092 * t1085));
+        let t1112 = t1101 * mul_add(t1106, mul_sub(t1092, t1087, t1099 * t1080), t1111);
+        let t1113 = mul_add(t1108, t1100, t1110 * mul_sub(t1092, t1094, t1075 * t1089));
+        let t1114 = t1101 * mul_add(t1106, mul_sub(t1075, t1080, t1092 * t1096), t1113);
+        let t1115 = mul_add(t1108, t1097, t1110 * mul_sub(t1075, t1085, t1099 * t1094));
+        let t1116 = t1101 * mul_add(t1106, mul_sub(t1099, t1096, t1075 * t1087), t1115);
+        let t1117 = neg_mul_add(t1083, t1114, neg_mul_add(t1078, t1116, t1104));
+        let t1118 = t1064 * mul_sub(t1067, t1112, t1117);
+        let t1119 = -t1116;
+        let t1120 = neg_mul_add(t1082, t1114, neg_mul_add(t1077, t1116, t1103));
+        let t1121 = t1064 * mul_sub(t1073, t1112, t1120);
+        let t1122 = -t1114;
+        let t1123 = neg_mul_add(t1081, t1114, neg_mul_add(t1076, t1116, t1102));
+        let t1124 = t1064 * mul_sub(t1070, t1112, t1123);
+        let t1125 = -t1112;
+        let axial_reaction = solve_after_attempt(
+            &[t1118, t1119, t1121, t1122, t1124, t1125],
             &[
                 [t122, t128, t134, t140, t146, t152],
                 [t124, t130, t136, t142, t148, t154],
                 [t126, t132, t138, t144, t150, t156],
-                [t925, t928, t931, t934, t937, t940],
-                [t926, t929, t932, t935, t938, t941],
-                [t927, t930, t933, t936, t939, t942],
+                [t926, t932, t938, t944, t950, t956],
+                [t928, t934, t940, t946, t952, t958],
+                [t930, t936, t942, t948, t954, t960],
             ],
-            &[t978, t984, t990, t1016, t1033, t1041],
+            &[t996, t1002, t1008, t1034, t1051, t1059],
         );
         // leg 1: actuator forces F at reference speeds
-        let t1042 = neg_mul_add(t663, t664, mul_add(t649, t662, t909));
-        passive_inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t665, t685, t1042);
+        let t1126 = neg_mul_add(t663, t664, mul_add(t649, t662, t909));
+        passive_inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t665, t685, t1126);
         // leg 2: actuator forces F at reference speeds
-        let t1043 = neg_mul_add(t706, t707, mul_add(t692, t705, t912));
-        passive_inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t708, t728, t1043);
+        let t1127 = neg_mul_add(t706, t707, mul_add(t692, t705, t912));
+        passive_inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t708, t728, t1127);
         // leg 3: actuator forces F at reference speeds
-        let t1044 = neg_mul_add(t749, t750, mul_add(t735, t748, t915));
-        passive_inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t751, t771, t1044);
+        let t1128 = neg_mul_add(t749, t750, mul_add(t735, t748, t915));
+        passive_inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t751, t771, t1128);
         // leg 4: actuator forces F at reference speeds
-        let t1045 = neg_mul_add(t792, t793, mul_add(t778, t791, t918));
-        passive_inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t794, t814, t1045);
+        let t1129 = neg_mul_add(t792, t793, mul_add(t778, t791, t918));
+        passive_inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t794, t814, t1129);
         // leg 5: actuator forces F at reference speeds
-        let t1046 = neg_mul_add(t835, t836, mul_add(t821, t834, t921));
-        passive_inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t837, t857, t1046);
+        let t1130 = neg_mul_add(t835, t836, mul_add(t821, t834, t921));
+        passive_inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t837, t857, t1130);
         // leg 6: actuator forces F at reference speeds
-        let t1047 = neg_mul_add(t878, t879, mul_add(t864, t877, t924));
-        passive_inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t880, t900, t1047);
+        let t1131 = neg_mul_add(t878, t879, mul_add(t864, t877, t924));
+        passive_inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t880, t900, t1131);
     }
 }
 
@@ -27578,16 +27818,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -27597,69 +27837,69 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
     let t27 = t9 * P::splat(P::lane(t14, 2));
     let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t29 = t18 * P::splat(P::lane(t14, 0));
     let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
     let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
     let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
     let t35 = t18 * P::splat(P::lane(t14, 2));
     let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
     // constant and copied elements
     let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
     let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
     let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
     // constant and copied elements
     let t43 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     let t44 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
     // constant and copied elements
     let t48 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
     let t49 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
-    // legs 4, 5, 6: platform joint from the base point
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 2, 4, 6: platform joint from the base point
     let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
     // angular velocity of the base
     let t51 = t1 * P::splat(base_velocity[4]);
     // angular velocity of the platform
     let t52 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
     // angular velocity of the base
     let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
@@ -27671,7 +27911,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t57 = mul_add(t2, P::splat(platform_velocity[3]), t52);
     // platform origin seen from the base
     let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
-    // legs 1, 2, 3: actuator length d
+    // legs 1, 3, 5: actuator length d
     let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
     // angular velocity of the base
     let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
@@ -27681,7 +27921,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t62 = mul_add(t2, P::splat(platform_acceleration[3]), t56);
     // angular velocity of the platform
     let t63 = mul_add(t5, P::splat(platform_velocity[5]), t57);
-    // legs 4, 5, 6: actuator length d
+    // legs 2, 4, 6: actuator length d
     let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
     // platform origin seen from the base
     let t65 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
@@ -27715,11 +27955,11 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t80 = mul_sub(t63, t67, t14 * t73);
     // rotation of the platform seen from the base
     let t81 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: reciprocal of the actuator length
+    // legs 1, 3, 5: reciprocal of the actuator length
     let t82 = w(1.0) / t59;
     // angular acceleration of the base
     let t83 = mul_add(t5, P::splat(base_acceleration[5]), t74);
-    // legs 4, 5, 6: reciprocal of the actuator length
+    // legs 2, 4, 6: reciprocal of the actuator length
     let t84 = w(1.0) / t64;
     // rotation of the platform seen from the base
     let t85 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
@@ -27729,7 +27969,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t87 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t88 = mul_sub(t63, t81, t17 * t73);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t89 = neg_mul_add(t32, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
     // angular velocity of the base
     let t90 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
@@ -27746,7 +27986,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t97 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
     // acceleration per platform coordinate of points of the platform
     let t98 = mul_add(t73, t80, mul_sub(t78, t79, t67 * t77));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t99 = neg_mul_add(t37, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
     let t100 = mul_add(t37, P::splat(P::lane(t70, 0)), t89);
     // angular velocity of the base
@@ -27757,7 +27997,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t103 = mul_add(t73, t86, mul_sub(t78, t85, t76 * t77));
     let t104 = P::triple([P::lane(t80, 2), P::lane(t80, 0), P::lane(t80, 1)]);
     let t105 = mul_add(t73, t88, mul_sub(t78, t87, t77 * t81));
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t106 = t42 * t82;
     // acceleration of the base origin less gravity
     let t107 = base_acceleration[2] - parameters.gravity[2];
@@ -27767,18 +28007,18 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t109 = parameters.gravity[2] - platform_acceleration[2];
     // acceleration per platform coordinate of points of the platform
     let t110 = neg_mul_add(t102, t104, t98);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t111 = mul_add(t33, P::splat(P::lane(t70, 2)), t99);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t112 = neg_mul_add(t39, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t113 = neg_mul_add(t33, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
     // angular acceleration of the base
     let t114 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t115 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
     let t116 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t117 = t41 * t82;
     // acceleration of the base origin less gravity
     let t118 = mul_add(t5, P::splat(t107), mul_add(t2, P::splat(t92), t93));
@@ -27795,118 +28035,118 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t124 = neg_mul_add(t102, t116, t105);
     // acceleration per base coordinate of points that move with the base
     let t125 = t120 + t121;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t126 = neg_mul_add(t45, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
     let t127 = mul_add(t45, P::splat(P::lane(t70, 0)), t112);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t128 = mul_add(t32, P::splat(P::lane(t70, 1)), t113);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t129 = mul_add(t41, P::splat(P::lane(t60, 2)), t100);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t130 = t46 * t84;
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t131 = t47 * t82;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t132 = t9 * P::splat(P::lane(t110, 1));
     let t133 = t21 * P::splat(P::lane(t108, 1));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t134 = mul_add(t36, P::splat(P::lane(t70, 2)), t126);
     let t135 = neg_mul_add(t36, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t136 = mul_add(t47, P::splat(P::lane(t60, 1)), t111);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t137 = t50 * t84;
-    // legs 1, 2, 3: actuator velocity d'
+    // legs 1, 3, 5: actuator velocity d'
     let t138 = mul_add(t128, t131, mul_add(t111, t117, t100 * t106));
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t139 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t129);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t140 = t9 * P::splat(P::lane(t110, 0));
     let t141 = t21 * P::splat(P::lane(t119, 0));
     let t142 = neg_mul_add(t13, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
     let t143 = mul_add(t44, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
     // constant and copied elements
     let t144 =
-        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+        P::triple([parameters.upper_mass[1], parameters.upper_mass[3], parameters.upper_mass[5]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t145 = mul_add(t39, P::splat(P::lane(t70, 1)), t135);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t146 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t136);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t147 = mul_add(t50, P::splat(P::lane(t60, 2)), t127);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t148 = mul_add(t42, P::splat(P::lane(t60, 0)), t128);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t149 = t53 * t84;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t150 = neg_mul_add(t13, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
     let t151 = mul_add(t44, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
     let t152 = t142 - mul_add(t12, P::splat(P::lane(t123, 1)), t132);
     let t153 = mul_sub(t38, P::splat(P::lane(t125, 1)), t133) + t143;
     let t154 = t9 * P::splat(P::lane(t110, 2));
     let t155 = t21 * P::splat(P::lane(t125, 2));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t156 = t18 * P::splat(P::lane(t110, 1));
     let t157 = t43 * P::splat(P::lane(t108, 1));
     // constant and copied elements
     let t158 =
-        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[2], parameters.upper_mass[4]]);
+    // legs 2, 4, 6: inertial rate of that gradient
     let t159 = mul_add(t53, P::splat(P::lane(t60, 1)), t134);
     // second moment of payload and platform-side leg ends
     let t160 = mul_add(t12 * t12, t158, t19 * t19 * t144);
     let t161 = mul_add(t9 * t12, t158, t18 * t19 * t144);
     let t162 = mul_add(t12 * t13, t158, t19 * t20 * t144);
-    // legs 4, 5, 6: actuator velocity d'
+    // legs 2, 4, 6: actuator velocity d'
     let t163 = mul_add(t145, t149, mul_add(t134, t137, t127 * t130));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t164 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t147);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t165 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t148);
     let t166 = t82 * neg_mul_add(t106, t138, t139);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t167 = t150 - mul_add(t12, P::splat(P::lane(t123, 0)), t140);
     let t168 = t151 - mul_sub(t38, P::splat(P::lane(t108, 0)), t141);
     let t169 = t152 + t153;
     let t170 = neg_mul_add(t13, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
     let t171 = neg_mul_add(t44, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t172 = t18 * P::splat(P::lane(t110, 0));
     let t173 = t43 * P::splat(P::lane(t119, 0));
     let t174 = neg_mul_add(t20, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
     let t175 = mul_add(t49, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t176 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t159);
     let t177 = mul_add(t46, P::splat(P::lane(t60, 0)), t145);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t178 = t82 * neg_mul_add(t117, t138, t146);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t179 = t167 + t168;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t180 = neg_mul_add(t20, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
     let t181 = mul_add(t49, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t182 = t170 - mul_add(t12, P::splat(P::lane(t123, 2)), t154);
     let t183 = mul_add(t38, P::splat(P::lane(t119, 2)), t155) + t171;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t184 = t174 - mul_add(t19, P::splat(P::lane(t123, 1)), t156);
     let t185 = mul_sub(t48, P::splat(P::lane(t125, 1)), t157) + t175;
     let t186 = t18 * P::splat(P::lane(t110, 2));
     let t187 = t43 * P::splat(P::lane(t125, 2));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t188 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t177);
     // second moment of payload and platform-side leg ends
     let t189 = mul_add(t158, t9 * t9, t144 * (t18 * t18));
     let t190 = mul_add(t158, t9 * t13, t144 * (t18 * t20));
     let t191 = P::triple([P::lane(t160, 0), P::lane(t161, 0), P::lane(t162, 0)]);
     let t192 = P::triple([P::lane(t160, 1), P::lane(t161, 1), P::lane(t162, 1)]);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t193 = t84 * neg_mul_add(t130, t163, t164);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t194 = t82 * neg_mul_add(t131, t138, t165);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t195 = t182 + t183;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t196 = t180 - mul_add(t19, P::splat(P::lane(t123, 0)), t172);
     let t197 = t181 - mul_sub(t48, P::splat(P::lane(t108, 0)), t173);
     let t198 = t184 + t185;
@@ -27914,81 +28154,81 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t200 = neg_mul_add(t49, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
     // second moment of payload and platform-side leg ends
     let t201 = P::triple([P::lane(t160, 2), P::lane(t161, 2), P::lane(t162, 2)]);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t202 = t84 * neg_mul_add(t137, t163, t176);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t203 = mul_add(t131, t195, mul_add(t117, t179, t106 * t169));
     let t204 = mul_add(t194, t194, mul_add(t178, t178, t166 * t166));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t205 = t196 + t197;
     // second moment of payload and platform-side leg ends
     let t206 = t191 + t192 + t201;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t207 = t199 - mul_add(t19, P::splat(P::lane(t123, 2)), t186);
     let t208 = mul_add(t48, P::splat(P::lane(t119, 2)), t187) + t200;
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t209 = t84 * neg_mul_add(t149, t163, t188);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t210 = neg_mul_add(t59, t204, t203);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t211 = t207 + t208;
     // second moment of payload and platform-side leg ends
     let t212 = mul_add(t158, t13 * t13, t144 * (t20 * t20));
     let t213 = P::lane(t190, 1) + P::lane(t190, 0);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t214 = mul_add(t209, t209, mul_add(t202, t202, t193 * t193));
     // second moment of payload and platform-side leg ends
     let t215 = P::triple([P::lane(t206, 1), P::lane(t189, 2), P::lane(t190, 2)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t216 = mul_add(t149, t211, mul_add(t137, t205, t130 * t198));
     // second moment of payload and platform-side leg ends
     let t217 = P::triple([c(0.0), P::lane(t189, 1) + P::lane(t189, 0), t213]);
     let t218 = t215 + t217;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t219 = t138 * w(2.0);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t220 = neg_mul_add(t64, t214, t216);
     // constant and copied elements
     let t221 =
-        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[2], parameters.lower_mass[4]]);
     let t222 =
-        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
-    // legs 1, 2, 3: first moment of the lower part about the base joint
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[2], parameters.lower_com_distance[4]]);
+    // legs 1, 3, 5: first moment of the lower part about the base joint
     let t223 = t221 * t222;
     // constant and copied elements
     let t224 =
-        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[2], parameters.upper_com_distance[4]]);
     let t225 =
-        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
-    // legs 1, 2, 3: first moment of the upper part about the platform joint
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[2], parameters.lower_inertia[4]]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
     let t226 = t158 * t224;
     // second moment of payload and platform-side leg ends
     let t227 = P::triple([P::lane(t206, 2), P::lane(t218, 2), P::lane(t212, 2)]);
     let t228 = P::triple([c(0.0), c(0.0), P::lane(t212, 1) + P::lane(t212, 0)]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t229 = t82 * mul_add(t178, t219, neg_mul_add(t117, t210, t179));
     let t230 = t82 * mul_add(t166, t219, neg_mul_add(t106, t210, t169));
     let t231 = t82 * mul_add(t194, t219, neg_mul_add(t131, t210, t195));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t232 = t163 * w(2.0);
     // constant and copied elements
     let t233 =
-        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+        P::triple([parameters.lower_mass[1], parameters.lower_mass[3], parameters.lower_mass[5]]);
     let t234 =
-        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+        P::triple([parameters.lower_com_distance[1], parameters.lower_com_distance[3], parameters.lower_com_distance[5]]);
     let t235 =
-        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[2], parameters.upper_inertia[4]]);
     // second moment of payload and platform-side leg ends
     let t236 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t237 = t82 * t223;
-    // legs 4, 5, 6: first moment of the lower part about the base joint
+    // legs 2, 4, 6: first moment of the lower part about the base joint
     let t238 = t233 * t234;
     // constant and copied elements
     let t239 =
-        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+        P::triple([parameters.upper_com_distance[1], parameters.upper_com_distance[3], parameters.upper_com_distance[5]]);
     let t240 =
-        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+        P::triple([parameters.lower_inertia[1], parameters.lower_inertia[3], parameters.lower_inertia[5]]);
     // second moment of payload and platform-side leg ends
     let t241 = t236 + parameters.payload_inertia[2][2];
     // constant and copied elements
@@ -27996,13 +28236,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
     let t243 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
     let t244 = t144 * t239;
-    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
     let t245 = mul_add(t224, t226, mul_add(t222, t223, t225) + t235);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t246 = t82 * t226;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t247 = t84 * mul_add(t202, t232, neg_mul_add(t137, t220, t205));
     let t248 = t84 * mul_add(t193, t232, neg_mul_add(t130, t220, t198));
     let t249 = t84 * mul_add(t209, t232, neg_mul_add(t149, t220, t211));
@@ -28016,14 +28256,14 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t254 = P::triple([P::lane(t206, 1), P::lane(t218, 2), P::lane(t206, 2)]);
     // constant and copied elements
     let t255 =
-        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+        P::triple([parameters.upper_inertia[1], parameters.upper_inertia[3], parameters.upper_inertia[5]]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t256 = t84 * t238;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t257 = mul_add(t167, t246, mul_add(t168, t237, t226 * t229));
     let t258 = mul_add(t152, t246, mul_add(t153, t237, t226 * t230));
     let t259 = mul_add(t182, t246, mul_add(t183, t237, t226 * t231));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t260 = t82 * t245;
     // constant and copied elements
     let t261 =
@@ -28035,13 +28275,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t264 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
     let t265 = mul_add(t239, t244, mul_add(t234, t238, t240) + t255);
     // second moment of payload and platform-side leg ends
     let t266 = mul_add(t242 * t243, P::splat(parameters.payload_mass), t254) - t264;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t267 = t84 * t244;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t268 = neg_mul_add(t229, t260, t257);
     let t269 = neg_mul_add(t230, t260, t258);
     let t270 = neg_mul_add(t231, t260, t259);
@@ -28050,21 +28290,21 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // first moment of payload and platform-side leg ends
     let t272 = P::triple([P::lane(t251, 0), P::lane(t252, 0), P::lane(t253, 0)]);
     let t273 = P::triple([P::lane(t251, 1), P::lane(t252, 1), P::lane(t253, 1)]);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t274 = mul_add(t196, t267, mul_add(t197, t256, t244 * t247));
     let t275 = mul_add(t184, t267, mul_add(t185, t256, t244 * t248));
     let t276 = mul_add(t207, t267, mul_add(t208, t256, t244 * t249));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t277 = t84 * t265;
     // first moments by platform coordinate of the payload's inertia force
     let t278 = t110 * P::splat(P::lane(t266, 0));
     // first moment of payload and platform-side leg ends
     let t279 = P::triple([P::lane(t251, 2), P::lane(t252, 2), P::lane(t253, 2)]);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t280 = neg_mul_add(t247, t277, t274);
     let t281 = neg_mul_add(t248, t277, t275);
     let t282 = neg_mul_add(t249, t277, t276);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
     let t283 = mul_sub(t33, t270, t37 * t269);
     let t284 = mul_sub(t37, t268, t32 * t270);
     let t285 = mul_sub(t32, t269, t33 * t268);
@@ -28074,174 +28314,263 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t287 = t1 * P::splat(external_wrench[1]);
     // first moment of payload and platform-side leg ends
     let t288 = mul_add(P::splat(parameters.payload_mass), t261, t272 + t273 + t279);
-    // first moments by platform coordinate of the payload's inertia force
-    let t289 = mul_add(t124, P::splat(P::lane(t266, 2)), t286);
-    // inertia less external wrench that the actuators must balance
-    let t290 = mul_add(t2, P::splat(external_wrench[0]), t287);
-    // first moments by platform coordinate of the payload's inertia force
-    let t291 = t110 * P::splat(P::lane(t271, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t292 = neg_mul_add(t45, t281, mul_add(t36, t282, t283));
-    let t293 = neg_mul_add(t39, t282, mul_add(t45, t280, t284));
-    let t294 = neg_mul_add(t36, t280, mul_add(t39, t281, t285));
-    // first moments by platform coordinate of the payload's inertia force
-    let t295 = mul_sub(t122, P::splat(P::lane(t288, 0)), t289);
-    let t296 = mul_add(t123, P::splat(P::lane(t266, 0)), t291);
-    // inertia less external wrench that the actuators must balance
-    let t297 = mul_add(t5, P::splat(external_wrench[2]), t290);
-    // first moments by platform coordinate of the payload's inertia force
-    let t298 = t110 * P::splat(P::lane(t266, 1));
-    let t299 = mul_add(t124, P::splat(P::lane(t266, 1)), t296);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t300 = P::triple([P::lane(t292, 0), P::lane(t293, 0), P::lane(t294, 0)]);
-    let t301 = P::triple([P::lane(t292, 1), P::lane(t293, 1), P::lane(t294, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t302 = mul_sub(t122, P::splat(P::lane(t288, 1)), t299);
-    let t303 = mul_add(t123, P::splat(P::lane(t266, 2)), t298);
-    // inertia less external wrench that the actuators must balance
-    let t304 = P::triple([P::lane(t297, 2), P::lane(t297, 0), P::lane(t297, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t305 = P::triple([P::lane(t295, 2), P::lane(t295, 0), P::lane(t295, 1)]);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t306 = P::triple([P::lane(t292, 2), P::lane(t293, 2), P::lane(t294, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t307 = mul_add(P::splat(parameters.payload_com[0]), t304, t305);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t308 = t300 + t301 + t306;
-    // first moments by platform coordinate of the payload's inertia force
-    let t309 = mul_add(t124, P::splat(P::lane(t271, 2)), t303);
     // mass of payload and platform-side leg ends
-    let t310 = t144 + t158;
+    let t289 = t144 + t158;
     // first moments by platform coordinate of the payload's inertia force
-    let t311 = mul_sub(t122, P::splat(P::lane(t288, 2)), t309);
-    let t312 = P::triple([P::lane(t302, 2), P::lane(t302, 0), P::lane(t302, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t313 = t268 + t280;
+    let t290 = mul_add(t124, P::splat(P::lane(t266, 2)), t286);
     // inertia less external wrench that the actuators must balance
-    let t314 = mul_add(P::splat(parameters.payload_com[1]), t304, t312);
+    let t291 = mul_add(t2, P::splat(external_wrench[0]), t287);
     // inertia force less weight, without the actuators' own shares
-    let t315 = t269 + t281;
-    // inertia less external wrench that the actuators must balance
-    let t316 = P::triple([P::lane(t307, 2), P::lane(t307, 0), P::lane(t307, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t317 = t270 + t282;
-    // inertia less external wrench that the actuators must balance
-    let t318 = mul_add(t85, t316, neg_mul_add(t76, t307, t308));
+    let t292 = t268 + t280;
+    let t293 = t269 + t281;
+    let t294 = t270 + t282;
     // first moments by platform coordinate of the payload's inertia force
-    let t319 = P::triple([P::lane(t311, 2), P::lane(t311, 0), P::lane(t311, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t320 = P::triple([P::lane(t313, 0), P::lane(t315, 0), P::lane(t317, 0)]);
-    let t321 = P::triple([P::lane(t313, 1), P::lane(t315, 1), P::lane(t317, 1)]);
+    let t295 = t110 * P::splat(P::lane(t271, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t296 = neg_mul_add(t45, t281, mul_add(t36, t282, t283));
+    let t297 = neg_mul_add(t39, t282, mul_add(t45, t280, t284));
+    let t298 = neg_mul_add(t36, t280, mul_add(t39, t281, t285));
+    // first moments by platform coordinate of the payload's inertia force
+    let t299 = mul_sub(t122, P::splat(P::lane(t288, 0)), t290);
+    let t300 = mul_add(t123, P::splat(P::lane(t266, 0)), t295);
     // inertia less external wrench that the actuators must balance
-    let t322 = mul_add(P::splat(parameters.payload_com[2]), t304, t319);
-    let t323 = P::triple([P::lane(t314, 2), P::lane(t314, 0), P::lane(t314, 1)]);
+    let t301 = mul_add(t5, P::splat(external_wrench[2]), t291);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t302 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t303 = P::triple([P::lane(t117, 1), P::lane(t117, 2), P::lane(t117, 0)]);
+    let t304 = P::triple([P::lane(t131, 1), P::lane(t131, 2), P::lane(t131, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t305 = P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t306 = P::triple([P::lane(t292, 0), P::lane(t293, 0), P::lane(t294, 0)]);
+    let t307 = P::triple([P::lane(t292, 1), P::lane(t293, 1), P::lane(t294, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t308 = mul_add(t124, P::splat(P::lane(t266, 1)), t300);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t309 = P::triple([P::lane(t117, 2), P::lane(t117, 0), P::lane(t117, 1)]);
     // mass of payload and platform-side leg ends
-    let t324 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
-    // inertia less external wrench that the actuators must balance
-    let t325 = neg_mul_add(t79, t323, mul_sub(t67, t314, t318));
-    // inertia force less weight, without the actuators' own shares
-    let t326 = P::triple([P::lane(t313, 2), P::lane(t315, 2), P::lane(t317, 2)]);
-    // mass of payload and platform-side leg ends
-    let t327 = parameters.payload_mass + t324;
-    // inertia force less weight, without the actuators' own shares
-    let t328 = neg_mul_add(t122, P::splat(t327), t320 + t321 + t326);
-    // inertia less external wrench that the actuators must balance
-    let t329 = P::triple([P::lane(t322, 2), P::lane(t322, 0), P::lane(t322, 1)]);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t330 = mul_sub(t33, t131, t37 * t106);
-    // inertia less external wrench that the actuators must balance
-    let t331 = neg_mul_add(t87, t329, mul_add(t81, t322, t325));
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t332 = mul_sub(t36, t149, t45 * t130);
-    // inertia force less weight, without the actuators' own shares
-    let t333 = mul_add(t123, P::splat(P::lane(t288, 0)), t328);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t334 = mul_sub(t37, t117, t32 * t131);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t335 = mul_sub(t45, t137, t39 * t149);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t336 = mul_sub(t32, t106, t33 * t117);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t337 = mul_sub(t39, t130, t36 * t137);
-    // inertia less external wrench that the actuators must balance
-    let t338 = mul_add(t2, P::splat(external_wrench[3]), t331);
-    // inertia force less weight, without the actuators' own shares
-    let t339 = mul_add(t110, P::splat(P::lane(t288, 1)), t333);
-    // inertia less external wrench that the actuators must balance
-    let t340 = mul_add(t1, P::splat(external_wrench[4]), t338);
-    // inertia force less weight, without the actuators' own shares
-    let t341 = mul_add(t124, P::splat(P::lane(t288, 2)), t339);
-    // inertia less external wrench that the actuators must balance
-    let t342 = mul_add(t5, P::splat(external_wrench[5]), t340);
-    let t343 = t341 - t297;
-    let t344 = -P::lane(t342, 0);
-    let t345 = -P::lane(t342, 1);
-    let t346 = -P::lane(t342, 2);
+    let t310 = P::lane(t289, 2) + (P::lane(t289, 1) + P::lane(t289, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t311 = t110 * P::splat(P::lane(t266, 1));
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t312 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
-        &[
-            [P::lane(t117, 0), P::lane(t117, 1), P::lane(t117, 2), P::lane(t137, 0), P::lane(t137, 1), P::lane(t137, 2)],
-            [P::lane(t106, 0), P::lane(t106, 1), P::lane(t106, 2), P::lane(t130, 0), P::lane(t130, 1), P::lane(t130, 2)],
-            [P::lane(t131, 0), P::lane(t131, 1), P::lane(t131, 2), P::lane(t149, 0), P::lane(t149, 1), P::lane(t149, 2)],
-            [P::lane(t330, 0), P::lane(t330, 1), P::lane(t330, 2), P::lane(t332, 0), P::lane(t332, 1), P::lane(t332, 2)],
-            [P::lane(t334, 0), P::lane(t334, 1), P::lane(t334, 2), P::lane(t335, 0), P::lane(t335, 1), P::lane(t335, 2)],
-            [P::lane(t336, 0), P::lane(t336, 1), P::lane(t336, 2), P::lane(t337, 0), P::lane(t337, 1), P::lane(t337, 2)],
-        ],
-        &[P::lane(t343, 0), P::lane(t343, 1), P::lane(t343, 2), t344, t345, t346],
-    );
+    let t313 = mul_sub(t304, t309, t302 * t303);
+    let t314 = mul_sub(t302, t312, t304 * t305);
+    // inertia force less weight, without the actuators' own shares
+    let t315 = P::triple([P::lane(t292, 2), P::lane(t293, 2), P::lane(t294, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t316 = P::triple([P::lane(t296, 0), P::lane(t297, 0), P::lane(t298, 0)]);
+    let t317 = P::triple([P::lane(t296, 1), P::lane(t297, 1), P::lane(t298, 1)]);
+    // mass of payload and platform-side leg ends
+    let t318 = parameters.payload_mass + t310;
+    // first moments by platform coordinate of the payload's inertia force
+    let t319 = mul_sub(t122, P::splat(P::lane(t288, 1)), t308);
+    let t320 = mul_add(t123, P::splat(P::lane(t266, 2)), t311);
+    // inertia less external wrench that the actuators must balance
+    let t321 = P::triple([P::lane(t301, 2), P::lane(t301, 0), P::lane(t301, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t322 = P::triple([P::lane(t299, 2), P::lane(t299, 0), P::lane(t299, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t323 = mul_add(P::splat(parameters.payload_com[0]), t321, t322);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t324 = P::triple([P::lane(t296, 2), P::lane(t297, 2), P::lane(t298, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t325 = neg_mul_add(t122, P::splat(t318), t306 + t307 + t315);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t326 = t316 + t317 + t324;
+    // force along the actuator that balances the remaining wrench
+    let t327 = t130 * P::splat(P::lane(t313, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t328 = mul_add(t124, P::splat(P::lane(t271, 2)), t320);
+    // force along the actuator that balances the remaining wrench
+    let t329 = mul_sub(t303, t305, t309 * t312);
+    let t330 = mul_add(t137, P::splat(P::lane(t314, 0)), t327);
+    let t331 = P::lane(t117, 1) * P::lane(t314, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t332 = mul_add(t123, P::splat(P::lane(t288, 0)), t325);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t333 = mul_sub(t37, t117, t32 * t131);
+    let t334 = mul_sub(t32, t106, t33 * t117);
+    // first moments by platform coordinate of the payload's inertia force
+    let t335 = mul_sub(t122, P::splat(P::lane(t288, 2)), t328);
+    let t336 = P::triple([P::lane(t319, 2), P::lane(t319, 0), P::lane(t319, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t337 = mul_add(P::splat(parameters.payload_com[1]), t321, t336);
+    let t338 = P::triple([P::lane(t323, 2), P::lane(t323, 0), P::lane(t323, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t339 = P::mul_add(P::lane(t117, 0), P::lane(t314, 0), t331);
+    // inertia less external wrench that the actuators must balance
+    let t340 = mul_add(t85, t338, neg_mul_add(t76, t323, t326));
+    // force along the actuator that balances the remaining wrench
+    let t341 = mul_add(t149, P::splat(P::lane(t329, 0)), t330);
+    let t342 = t130 * P::splat(P::lane(t313, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t343 = mul_add(t110, P::splat(P::lane(t288, 1)), t332);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t344 = mul_sub(t45, t137, t39 * t149);
+    let t345 = mul_sub(t39, t130, t36 * t137);
+    // force along the actuator that balances the remaining wrench
+    let t346 = mul_add(t137, P::splat(P::lane(t314, 1)), t342);
+    let t347 = P::mul_add(P::lane(t117, 2), P::lane(t314, 2), t339);
+    let t348 = t130 * P::splat(P::lane(t313, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t349 = mul_add(t124, P::splat(P::lane(t288, 2)), t343);
+    // first moments by platform coordinate of the payload's inertia force
+    let t350 = P::triple([P::lane(t335, 2), P::lane(t335, 0), P::lane(t335, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t351 = mul_add(P::splat(parameters.payload_com[2]), t321, t350);
+    let t352 = P::triple([P::lane(t337, 2), P::lane(t337, 0), P::lane(t337, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t353 = mul_add(t149, P::splat(P::lane(t329, 1)), t346);
+    let t354 = mul_add(t137, P::splat(P::lane(t314, 2)), t348);
+    let t355 = mul_sub(t344, P::splat(t347), t341 * P::splat(P::lane(t333, 0)));
+    let t356 = mul_sub(t345, P::splat(t347), t341 * P::splat(P::lane(t334, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t357 = neg_mul_add(t79, t352, mul_sub(t67, t337, t340));
+    let t358 = t349 - t301;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t359 = mul_sub(t33, t131, t37 * t106);
+    // force along the actuator that balances the remaining wrench
+    let t360 = mul_add(t149, P::splat(P::lane(t329, 2)), t354);
+    let t361 = neg_mul_add(P::splat(P::lane(t333, 1)), t353, t355);
+    let t362 = neg_mul_add(P::splat(P::lane(t334, 1)), t353, t356);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t363 = mul_sub(t36, t149, t45 * t130);
+    // inertia less external wrench that the actuators must balance
+    let t364 = P::triple([P::lane(t351, 2), P::lane(t351, 0), P::lane(t351, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t365 = neg_mul_add(P::splat(P::lane(t333, 2)), t360, t361);
+    let t366 = neg_mul_add(P::splat(P::lane(t334, 2)), t360, t362);
+    // inertia less external wrench that the actuators must balance
+    let t367 = neg_mul_add(t87, t364, mul_add(t81, t351, t357));
+    // force along the actuator that balances the remaining wrench
+    let t368 = t313 * P::splat(P::lane(t358, 1));
+    let t369 = mul_add(t314, P::splat(P::lane(t358, 0)), t368);
+    let t370 = mul_sub(P::splat(t347), t363, t341 * P::splat(P::lane(t359, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t371 = mul_add(t2, P::splat(external_wrench[3]), t367);
+    // force along the actuator that balances the remaining wrench
+    let t372 = mul_add(t329, P::splat(P::lane(t358, 2)), t369);
+    let t373 = neg_mul_add(t353, P::splat(P::lane(t359, 1)), t370);
+    let t374 = P::triple([P::lane(t365, 2), P::lane(t365, 0), P::lane(t365, 1)]);
+    let t375 = P::triple([P::lane(t365, 1), P::lane(t365, 2), P::lane(t365, 0)]);
+    let t376 = P::triple([P::lane(t366, 1), P::lane(t366, 2), P::lane(t366, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t377 = mul_add(t1, P::splat(external_wrench[4]), t371);
+    // force along the actuator that balances the remaining wrench
+    let t378 = P::triple([P::lane(t366, 2), P::lane(t366, 0), P::lane(t366, 1)]);
+    let t379 = neg_mul_add(t360, P::splat(P::lane(t359, 2)), t373);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t380 = P::triple([P::lane(t359, 0), P::lane(t333, 0), P::lane(t334, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t381 = mul_sub(t375, t378, t374 * t376);
+    // inertia less external wrench that the actuators must balance
+    let t382 = mul_add(t5, P::splat(external_wrench[5]), t377);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t383 = P::triple([P::lane(t359, 1), P::lane(t333, 1), P::lane(t334, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t384 = mul_add(P::splat(t347), t382, P::splat(P::lane(t372, 0)) * t380);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t385 = P::triple([P::lane(t359, 2), P::lane(t333, 2), P::lane(t334, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t386 = P::triple([P::lane(t379, 1), P::lane(t379, 2), P::lane(t379, 0)]);
+    let t387 = P::triple([P::lane(t379, 2), P::lane(t379, 0), P::lane(t379, 1)]);
+    let t388 = P::lane(t379, 1) * P::lane(t381, 1);
+    let t389 = mul_add(P::splat(P::lane(t372, 1)), t383, t384);
+    let t390 = P::mul_add(P::lane(t379, 0), P::lane(t381, 0), t388);
+    let t391 = mul_add(P::splat(P::lane(t372, 2)), t385, t389);
+    let t392 = mul_sub(t374, t386, t375 * t387);
+    let t393 = P::triple([P::lane(t341, 0), P::lane(t353, 0), P::lane(t360, 0)]);
+    let t394 = c(1.0) / P::mul_add(P::lane(t379, 2), P::lane(t381, 2), t390);
+    let t395 = P::triple([P::lane(t341, 1), P::lane(t353, 1), P::lane(t360, 1)]);
+    let t396 = mul_sub(t376, t387, t378 * t386) * P::splat(P::lane(t391, 1));
+    let t397 = P::triple([P::lane(t341, 2), P::lane(t353, 2), P::lane(t360, 2)]);
+    let t398 = mul_add(t381, P::splat(P::lane(t391, 0)), t396);
+    let t399 = P::splat(t394) * mul_add(t392, P::splat(P::lane(t391, 2)), t398);
+    // inertia less external wrench that the actuators must balance
+    let t400 = -P::lane(t382, 0);
+    let t401 = -P::lane(t382, 1);
+    let t402 = -P::lane(t382, 2);
+    // force along the actuator that balances the remaining wrench
+    let t403 = -t399;
+    let t404 = mul_add(t393, P::splat(P::lane(t399, 0)), t372);
     // constant and copied elements
-    let t347 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t348 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t349 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t350 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    let t351 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t352 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t353 = mul_add(t131, t182, mul_add(t117, t167, t106 * t152));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t354 = mul_add(t149, t207, mul_add(t137, t196, t130 * t184));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t355 = mul_add(t59 - t347, t351, t138 * t348);
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t356 = mul_add(t64 - t349, t352, t163 * t350);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t357 = mul_add(t131, t183, mul_add(t117, t168, t106 * t153));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t358 = mul_add(t149, t208, mul_add(t137, t197, t130 * t185));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t359 = mul_add(t131, t231, mul_add(t117, t229, t106 * t230));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t360 = mul_add(t149, t249, mul_add(t137, t247, t130 * t248));
-    // legs 1, 2, 3: actuator forces F
-    let t361 = mul_add(t237, t357, mul_sub(t246, t353, t355));
-    // legs 4, 5, 6: actuator forces F
-    let t362 = mul_add(t256, t358, mul_sub(t267, t354, t356));
+    let t405 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t406 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
     // force along the actuator that balances the remaining wrench
-    let t363 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
-    // legs 1, 2, 3: actuator forces F
-    let t364 = t363 - neg_mul_add(t260, t359, t361);
+    let t407 = mul_add(t395, P::splat(P::lane(t399, 1)), t404);
+    // constant and copied elements
+    let t408 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t409 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
     // force along the actuator that balances the remaining wrench
-    let t365 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
-    // legs 4, 5, 6: actuator forces F
-    let t366 = t365 - neg_mul_add(t277, t360, t362);
+    let t410 = mul_add(t397, P::splat(P::lane(t399, 2)), t407);
+    // constant and copied elements
+    let t411 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    let t412 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t413 = mul_add(t131, t182, mul_add(t117, t167, t106 * t152));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t414 = mul_add(t149, t207, mul_add(t137, t196, t130 * t184));
+    // force along the actuator that balances the remaining wrench
+    let t415 = P::splat(c(1.0) / t347) * t410;
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t416 = mul_add(t59 - t405, t411, t138 * t406);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t417 = mul_add(t64 - t408, t412, t163 * t409);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t418 = mul_add(t131, t183, mul_add(t117, t168, t106 * t153));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t419 = mul_add(t149, t208, mul_add(t137, t197, t130 * t185));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t403, t415],
+        &[
+            [t137, t117],
+            [t130, t106],
+            [t149, t131],
+            [t363, t359],
+            [t344, t333],
+            [t345, t334],
+        ],
+        &[P::lane(t358, 0), P::lane(t358, 1), P::lane(t358, 2), t400, t401, t402],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t420 = mul_add(t131, t231, mul_add(t117, t229, t106 * t230));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t421 = mul_add(t149, t249, mul_add(t137, t247, t130 * t248));
+    // legs 1, 3, 5: actuator forces F
+    let t422 = mul_add(t237, t418, mul_sub(t246, t413, t416));
+    // legs 2, 4, 6: actuator forces F
+    let t423 = mul_add(t256, t419, mul_sub(t267, t414, t417));
+    // force along the actuator that balances the remaining wrench
+    let t424 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t425 = t424 - neg_mul_add(t260, t420, t422);
+    // force along the actuator that balances the remaining wrench
+    let t426 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t427 = t426 - neg_mul_add(t277, t421, t423);
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t364, 0);
+    inverse_dynamics[0] = P::lane(t425, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t364, 1);
+    inverse_dynamics[1] = P::lane(t427, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t364, 2);
+    inverse_dynamics[2] = P::lane(t425, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t366, 0);
+    inverse_dynamics[3] = P::lane(t427, 1);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t366, 1);
+    inverse_dynamics[4] = P::lane(t425, 2);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t366, 2);
+    inverse_dynamics[5] = P::lane(t427, 2);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -28610,16 +28939,16 @@ pub fn control_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -28629,1119 +28958,1241 @@ pub fn control_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
-    let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t24 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
     let t27 = t9 * P::splat(P::lane(t14, 2));
-    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t29 = t18 * P::splat(P::lane(t14, 0));
-    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
-    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
-    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = mul_add(t18, P::splat(P::lane(t15, 1)), t26);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t24);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t27);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
     // constant and copied elements
-    let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
-    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
-    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
-    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    let t39 =
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t40 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // legs 2, 4, 6: platform joint from the base point
+    let t43 = P::splat(P::lane(t22, 1)) + t35 - t39;
     // constant and copied elements
-    let t43 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
     let t44 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
-    // legs 4, 5, 6: platform joint from the base point
-    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
-    // legs 1, 2, 3: platform joint from the base point
-    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    let t45 =
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t44;
+    // legs 2, 4, 6: platform joint from the base point
+    let t47 = t37 + P::splat(P::lane(t22, 0)) - t45;
     // constant and copied elements
     let t48 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
     let t49 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t50 = t40 + P::splat(P::lane(t22, 2)) - t48;
+    // legs 2, 4, 6: platform joint from the base point
+    let t51 = t41 + P::splat(P::lane(t22, 2)) - t49;
     // angular velocity of the base
-    let t51 = t1 * P::splat(base_velocity[4]);
+    let t52 = t1 * P::splat(base_velocity[4]);
     // angular velocity of the platform
-    let t52 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    let t53 = t1 * P::splat(platform_velocity[4]);
     // angular velocity of the base
-    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t52);
     // angular velocity of the platform
-    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t53);
     // velocity of the platform origin relative to the base
     let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // platform origin seen from the base
     let t57 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     let t58 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
-    // legs 1, 2, 3: actuator length d
-    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t50, t50, mul_add(t46, t46, t42 * t42)));
+    // legs 2, 4, 6: actuator length d
+    let t60 = sqrt(mul_add(t51, t51, mul_add(t47, t47, t43 * t43)));
     // angular velocity of the base
-    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    let t61 = mul_add(t5, P::splat(base_velocity[5]), t54);
     // velocity of the platform origin relative to the base
-    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    let t62 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
     // angular velocity of the platform
-    let t62 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t55);
     // angular acceleration of the base
-    let t63 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: actuator length d
-    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    let t64 = t1 * P::splat(base_acceleration[4]);
     // rotation of the platform seen from the base
     let t65 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     let t66 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
     let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
     // velocity of the platform origin relative to the base
-    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t62);
     // angular velocity of the platform relative to the base
-    let t69 = t60 - t62;
+    let t69 = t61 - t63;
     // angular acceleration of the base
-    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t63);
+    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t64);
     // angular velocity of the base
-    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
-    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t72 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t73 = P::triple([P::lane(t61, 0), P::lane(t61, 2), P::lane(t61, 0)]);
     // angular velocity of the platform
-    let t73 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
+    let t74 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
     // velocity of the platform origin relative to the base
-    let t74 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
+    let t75 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
     // angular acceleration of the base
-    let t75 = mul_add(t5, P::splat(base_acceleration[5]), t70);
+    let t76 = mul_add(t5, P::splat(base_acceleration[5]), t70);
     // acceleration per platform coordinate of points of the platform
-    let t76 = mul_sub(t62, t65, t14 * t73);
-    let t77 = mul_sub(t62, t66, t15 * t73);
-    let t78 = mul_sub(t62, t67, t17 * t73);
+    let t77 = mul_sub(t63, t65, t14 * t74);
+    let t78 = mul_sub(t63, t66, t15 * t74);
+    let t79 = mul_sub(t63, t67, t17 * t74);
     // angular velocity of the base
-    let t79 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
-    let t80 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    let t80 = P::triple([P::lane(t61, 1), P::lane(t61, 1), P::lane(t61, 2)]);
     // acceleration of the base origin less gravity
     let t81 = base_acceleration[0] - parameters.gravity[0];
-    // legs 1, 2, 3: reciprocal of the actuator length
-    let t82 = w(1.0) / t59;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t83 = neg_mul_add(t32, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
-    // legs 4, 5, 6: reciprocal of the actuator length
-    let t84 = w(1.0) / t64;
-    // acceleration of the base origin less gravity
-    let t85 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    let t82 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t83 = w(1.0) / t59;
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t60;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t85 = neg_mul_add(t36, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t86 = neg_mul_add(t37, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
     // angular velocity of the base
-    let t86 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t87 = P::triple([P::lane(t61, 2), P::lane(t61, 2), P::lane(t61, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t87 = t79 * t80;
+    let t88 = t73 * t80;
     // acceleration of the platform origin less gravity
-    let t88 = t1 * P::splat(parameters.gravity[1]);
+    let t89 = t1 * P::splat(parameters.gravity[1]);
     // angular velocity of the platform
-    let t89 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
+    let t90 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t90 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t91 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
-    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t83);
+    let t91 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t92 = neg_mul_add(t40, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t93 = neg_mul_add(t41, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t94 = mul_add(t40, P::splat(P::lane(t69, 0)), t85);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t95 = mul_add(t41, P::splat(P::lane(t69, 0)), t86);
     // angular velocity of the base
-    let t93 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    let t96 = P::triple([P::lane(t61, 1), P::lane(t61, 0), P::lane(t61, 1)]);
     // acceleration of the platform origin less gravity
-    let t94 = mul_add(t2, P::splat(parameters.gravity[0]), t88);
+    let t97 = mul_add(t2, P::splat(parameters.gravity[0]), t89);
     // acceleration per platform coordinate of points of the platform
-    let t95 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
-    let t96 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t97 = t42 * t82;
+    let t98 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    let t99 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t100 = t42 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t101 = t43 * t84;
     // acceleration of the base origin less gravity
-    let t98 = base_acceleration[2] - parameters.gravity[2];
+    let t102 = base_acceleration[2] - parameters.gravity[2];
     // acceleration per base coordinate of points that move with the base
-    let t99 = mul_add(t93, t93, t86 * t86);
+    let t103 = mul_add(t96, t96, t87 * t87);
     // acceleration per platform coordinate of points of the platform
-    let t100 = mul_sub(t73, t76, t89 * t90);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t101 = mul_add(t33, P::splat(P::lane(t69, 2)), t91);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t102 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t103 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
+    let t104 = mul_sub(t74, t77, t90 * t91);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t105 = mul_add(t34, P::splat(P::lane(t69, 2)), t92);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t106 = mul_add(t35, P::splat(P::lane(t69, 2)), t93);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t107 = neg_mul_add(t34, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t35, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
     // angular acceleration of the base
-    let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t105 = t41 * t82;
+    let t109 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t110 = t46 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t111 = t47 * t84;
     // acceleration of the base origin less gravity
-    let t106 = mul_add(t5, P::splat(t98), mul_add(t2, P::splat(t81), t85));
+    let t112 = mul_add(t5, P::splat(t102), mul_add(t2, P::splat(t81), t82));
     // acceleration per base coordinate of points that move with the base
-    let t107 = mul_sub(t79, t80, t104);
+    let t113 = mul_sub(t73, t80, t109);
     // angular acceleration of the base
-    let t108 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t114 = P::triple([P::lane(t76, 1), P::lane(t76, 2), P::lane(t76, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t109 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    let t115 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
     // acceleration of the platform origin less gravity
-    let t110 = mul_add(t5, P::splat(parameters.gravity[2]), t94);
+    let t116 = mul_add(t5, P::splat(parameters.gravity[2]), t97);
     // acceleration per platform coordinate of points of the platform
-    let t111 = mul_sub(t73, t77, t89 * t95);
-    let t112 = mul_sub(t73, t78, t89 * t96);
+    let t117 = mul_sub(t74, t78, t90 * t98);
+    let t118 = mul_sub(t74, t79, t90 * t99);
     // acceleration per base coordinate of points that move with the base
-    let t113 = t108 + t109;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t114 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
-    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t102);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t116 = mul_add(t32, P::splat(P::lane(t69, 1)), t103);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t117 = mul_add(t41, P::splat(P::lane(t60, 2)), t92);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t118 = t46 * t84;
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t119 = t47 * t82;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t120 = t9 * P::splat(P::lane(t100, 1));
-    let t121 = t21 * P::splat(P::lane(t99, 1));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t122 = mul_add(t36, P::splat(P::lane(t69, 2)), t114);
-    let t123 = neg_mul_add(t36, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t124 = mul_add(t47, P::splat(P::lane(t60, 1)), t101);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t125 = t50 * t84;
-    // legs 1, 2, 3: actuator velocity d'
-    let t126 = mul_add(t116, t119, mul_add(t101, t105, t92 * t97));
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t127 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t117);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t128 = t9 * P::splat(P::lane(t100, 0));
-    let t129 = t21 * P::splat(P::lane(t107, 0));
-    let t130 = neg_mul_add(t13, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
-    let t131 = mul_add(t44, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t123);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t133 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t124);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t134 = mul_add(t50, P::splat(P::lane(t60, 2)), t115);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t135 = mul_add(t42, P::splat(P::lane(t60, 0)), t116);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t136 = t53 * t84;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t137 = neg_mul_add(t13, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
-    let t138 = mul_add(t44, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
-    let t139 = t130 - mul_add(t12, P::splat(P::lane(t111, 1)), t120);
-    let t140 = mul_sub(t38, P::splat(P::lane(t113, 1)), t121) + t131;
-    let t141 = t9 * P::splat(P::lane(t100, 2));
-    let t142 = t21 * P::splat(P::lane(t113, 2));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t143 = t18 * P::splat(P::lane(t100, 1));
-    let t144 = t43 * P::splat(P::lane(t99, 1));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t145 = mul_add(t53, P::splat(P::lane(t60, 1)), t122);
-    // legs 4, 5, 6: actuator velocity d'
-    let t146 = mul_add(t132, t136, mul_add(t122, t125, t115 * t118));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t147 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t134);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t148 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t135);
-    // constant and copied elements
-    let t149 =
-        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t150 = t82 * neg_mul_add(t97, t126, t127);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t151 = t137 - mul_add(t12, P::splat(P::lane(t111, 0)), t128);
-    let t152 = t138 - mul_sub(t38, P::splat(P::lane(t99, 0)), t129);
-    let t153 = t139 + t140;
-    let t154 = neg_mul_add(t13, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
-    let t155 = neg_mul_add(t44, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t156 = t18 * P::splat(P::lane(t100, 0));
-    let t157 = t43 * P::splat(P::lane(t107, 0));
-    let t158 = neg_mul_add(t20, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
-    let t159 = mul_add(t49, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t160 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t145);
-    let t161 = mul_add(t46, P::splat(P::lane(t60, 0)), t132);
+    let t119 = t114 + t115;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t36, P::splat(P::lane(t69, 1)), t107);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t121 = mul_add(t37, P::splat(P::lane(t69, 1)), t108);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t122 = mul_add(t46, P::splat(P::lane(t61, 2)), t94);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t123 = mul_add(t47, P::splat(P::lane(t61, 2)), t95);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t124 = t50 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t125 = t51 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t126 = t9 * P::splat(P::lane(t104, 1));
+    let t127 = t21 * P::splat(P::lane(t103, 1));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t128 = t12 * P::splat(P::lane(t104, 1));
+    let t129 = t39 * P::splat(P::lane(t103, 1));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t130 = mul_add(t50, P::splat(P::lane(t61, 1)), t105);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t131 = mul_add(t51, P::splat(P::lane(t61, 1)), t106);
+    // legs 1, 3, 5: actuator velocity d'
+    let t132 = mul_add(t120, t124, mul_add(t105, t110, t94 * t100));
+    // legs 2, 4, 6: actuator velocity d'
+    let t133 = mul_add(t121, t125, mul_add(t106, t111, t95 * t101));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t134 = neg_mul_add(t50, P::splat(P::lane(t61, 0)), t122);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t135 = neg_mul_add(t51, P::splat(P::lane(t61, 0)), t123);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t136 = t9 * P::splat(P::lane(t104, 0));
+    let t137 = t21 * P::splat(P::lane(t113, 0));
+    let t138 = neg_mul_add(t19, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t139 = mul_add(t48, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t140 = t12 * P::splat(P::lane(t104, 0));
+    let t141 = t39 * P::splat(P::lane(t113, 0));
+    let t142 = neg_mul_add(t20, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t143 = mul_add(t49, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t144 = neg_mul_add(t42, P::splat(P::lane(t61, 2)), t130);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t145 = neg_mul_add(t43, P::splat(P::lane(t61, 2)), t131);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t146 = mul_add(t42, P::splat(P::lane(t61, 0)), t120);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t147 = mul_add(t43, P::splat(P::lane(t61, 0)), t121);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t148 = neg_mul_add(t19, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t149 = mul_add(t48, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t150 = neg_mul_add(t20, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t151 = mul_add(t49, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t152 = t138 - mul_add(t13, P::splat(P::lane(t117, 1)), t126);
+    let t153 = mul_sub(t44, P::splat(P::lane(t119, 1)), t127) + t139;
+    let t154 = t9 * P::splat(P::lane(t104, 2));
+    let t155 = t21 * P::splat(P::lane(t119, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t156 = t142 - mul_add(t18, P::splat(P::lane(t117, 1)), t128);
+    let t157 = mul_sub(t45, P::splat(P::lane(t119, 1)), t129) + t143;
+    let t158 = t12 * P::splat(P::lane(t104, 2));
+    let t159 = t39 * P::splat(P::lane(t119, 2));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t46, P::splat(P::lane(t61, 1)), t146);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t161 = neg_mul_add(t47, P::splat(P::lane(t61, 1)), t147);
     // constant and copied elements
     let t162 =
-        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t163 = t82 * neg_mul_add(t105, t126, t133);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t164 = t151 + t152;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t165 = neg_mul_add(t20, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
-    let t166 = mul_add(t49, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
-    // second moment of payload and platform-side leg ends
-    let t167 = mul_add(t12 * t12, t162, t19 * t19 * t149);
-    let t168 = mul_add(t9 * t12, t162, t18 * t19 * t149);
-    let t169 = mul_add(t12 * t13, t162, t19 * t20 * t149);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t170 = t154 - mul_add(t12, P::splat(P::lane(t111, 2)), t141);
-    let t171 = mul_add(t38, P::splat(P::lane(t107, 2)), t142) + t155;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t172 = t158 - mul_add(t19, P::splat(P::lane(t111, 1)), t143);
-    let t173 = mul_sub(t48, P::splat(P::lane(t113, 1)), t144) + t159;
-    let t174 = t18 * P::splat(P::lane(t100, 2));
-    let t175 = t43 * P::splat(P::lane(t113, 2));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t176 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t161);
-    let t177 = t84 * neg_mul_add(t118, t146, t147);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t178 = t82 * neg_mul_add(t119, t126, t148);
-    // legs 1, 2, 3: actuator acceleration d''
+        P::triple([parameters.upper_mass[1], parameters.upper_mass[3], parameters.upper_mass[5]]);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t163 = t83 * neg_mul_add(t100, t132, t134);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t164 = t84 * neg_mul_add(t101, t133, t135);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t165 = t148 - mul_add(t13, P::splat(P::lane(t117, 0)), t136);
+    let t166 = t149 - mul_sub(t44, P::splat(P::lane(t103, 0)), t137);
+    let t167 = t152 + t153;
+    let t168 = neg_mul_add(t19, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t169 = neg_mul_add(t48, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t170 = t150 - mul_add(t18, P::splat(P::lane(t117, 0)), t140);
+    let t171 = t151 - mul_sub(t45, P::splat(P::lane(t103, 0)), t141);
+    let t172 = t156 + t157;
+    let t173 = neg_mul_add(t20, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t174 = neg_mul_add(t49, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // constant and copied elements
+    let t175 =
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[2], parameters.upper_mass[4]]);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t176 = t83 * neg_mul_add(t110, t132, t144);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t177 = t84 * neg_mul_add(t111, t133, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t178 = t165 + t166;
+    // legs 2, 4, 6: actuator acceleration d''
     let t179 = t170 + t171;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t180 = t165 - mul_add(t19, P::splat(P::lane(t111, 0)), t156);
-    let t181 = t166 - mul_sub(t48, P::splat(P::lane(t99, 0)), t157);
-    let t182 = t172 + t173;
-    let t183 = neg_mul_add(t20, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
-    let t184 = neg_mul_add(t49, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
-    // constant and copied elements
-    let t185 =
-        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
-    let t186 =
-        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t187 = t84 * neg_mul_add(t125, t146, t160);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t188 = mul_add(t119, t179, mul_add(t105, t164, t97 * t153));
-    let t189 = mul_add(t178, t178, mul_add(t163, t163, t150 * t150));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t190 = t180 + t181;
-    // legs 1, 2, 3: first moment of the lower part about the base joint
-    let t191 = t185 * t186;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t192 = t183 - mul_add(t19, P::splat(P::lane(t111, 2)), t174);
-    let t193 = mul_add(t48, P::splat(P::lane(t107, 2)), t175) + t184;
     // second moment of payload and platform-side leg ends
-    let t194 = mul_add(t162, t9 * t9, t149 * (t18 * t18));
-    let t195 = mul_add(t162, t9 * t13, t149 * (t18 * t20));
-    let t196 = P::triple([P::lane(t167, 0), P::lane(t168, 0), P::lane(t169, 0)]);
-    let t197 = P::triple([P::lane(t167, 1), P::lane(t168, 1), P::lane(t169, 1)]);
+    let t180 = mul_add(t13 * t13, t175, t18 * t18 * t162);
+    let t181 = mul_add(t9 * t13, t175, t12 * t18 * t162);
+    let t182 = mul_add(t13 * t19, t175, t18 * t20 * t162);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t183 = t168 - mul_add(t13, P::splat(P::lane(t117, 2)), t154);
+    let t184 = mul_add(t44, P::splat(P::lane(t113, 2)), t155) + t169;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t185 = t173 - mul_add(t18, P::splat(P::lane(t117, 2)), t158);
+    let t186 = mul_add(t45, P::splat(P::lane(t113, 2)), t159) + t174;
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t187 = t83 * neg_mul_add(t124, t132, t160);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t188 = t84 * neg_mul_add(t125, t133, t161);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t189 = t183 + t184;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t190 = t185 + t186;
     // constant and copied elements
-    let t198 =
-        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t199 = t84 * neg_mul_add(t136, t146, t176);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t200 = neg_mul_add(t59, t189, t188);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t201 = t192 + t193;
+    let t191 =
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[2], parameters.lower_mass[4]]);
+    let t192 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[2], parameters.lower_com_distance[4]]);
+    let t193 =
+        P::triple([parameters.lower_mass[1], parameters.lower_mass[3], parameters.lower_mass[5]]);
+    let t194 =
+        P::triple([parameters.lower_com_distance[1], parameters.lower_com_distance[3], parameters.lower_com_distance[5]]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t195 = mul_add(t124, t189, mul_add(t110, t178, t100 * t167));
+    let t196 = mul_add(t187, t187, mul_add(t176, t176, t163 * t163));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t197 = mul_add(t125, t190, mul_add(t111, t179, t101 * t172));
+    let t198 = mul_add(t188, t188, mul_add(t177, t177, t164 * t164));
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t199 = t191 * t192;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t200 = t193 * t194;
     // second moment of payload and platform-side leg ends
-    let t202 = P::triple([P::lane(t167, 2), P::lane(t168, 2), P::lane(t169, 2)]);
-    let t203 = t196 + t197 + t202;
+    let t201 = mul_add(t175, t9 * t9, t162 * (t12 * t12));
+    let t202 = mul_add(t175, t9 * t19, t162 * (t12 * t20));
+    let t203 = P::triple([P::lane(t180, 0), P::lane(t181, 0), P::lane(t182, 0)]);
+    let t204 = P::triple([P::lane(t180, 1), P::lane(t181, 1), P::lane(t182, 1)]);
     // constant and copied elements
-    let t204 =
-        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
     let t205 =
-        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[2], parameters.lower_inertia[4]]);
     let t206 =
-        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
-    let t207 =
-        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t208 = mul_add(t136, t201, mul_add(t125, t190, t118 * t182));
-    let t209 = mul_add(t199, t199, mul_add(t187, t187, t177 * t177));
-    // legs 4, 5, 6: first moment of the lower part about the base joint
-    let t210 = t204 * t205;
-    // legs 1, 2, 3: first moment of the upper part about the platform joint
-    let t211 = t162 * t206;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t212 = t126 * w(2.0);
+        P::triple([parameters.lower_inertia[1], parameters.lower_inertia[3], parameters.lower_inertia[5]]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t207 = neg_mul_add(t59, t196, t195);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t208 = neg_mul_add(t60, t198, t197);
+    // second moment of payload and platform-side leg ends
+    let t209 = P::triple([P::lane(t180, 2), P::lane(t181, 2), P::lane(t182, 2)]);
+    let t210 = t203 + t204 + t209;
     // constant and copied elements
+    let t211 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[2], parameters.upper_com_distance[4]]);
+    let t212 =
+        P::triple([parameters.upper_com_distance[1], parameters.upper_com_distance[3], parameters.upper_com_distance[5]]);
     let t213 =
-        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[2], parameters.upper_inertia[4]]);
+    let t214 =
+        P::triple([parameters.upper_inertia[1], parameters.upper_inertia[3], parameters.upper_inertia[5]]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t215 = t175 * t211;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t216 = t162 * t212;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t217 = t132 * w(2.0);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t218 = t133 * w(2.0);
     // second moment of payload and platform-side leg ends
-    let t214 = mul_add(t162, t13 * t13, t149 * (t20 * t20));
-    let t215 = P::lane(t195, 1) + P::lane(t195, 0);
-    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
-    let t216 = mul_add(t206, t211, mul_add(t186, t191, t198) + t207);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t217 = neg_mul_add(t64, t209, t208);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t218 = P::splat(base_rotation[0][1]) * t97;
-    let t219 = P::splat(base_rotation[2][1]) * t97;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t220 = t82 * t82;
-    let t221 = t82 * t211;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t222 = P::splat(base_rotation[1][1]) * t97;
+    let t219 = mul_add(t175, t19 * t19, t162 * (t20 * t20));
+    let t220 = P::lane(t202, 1) + P::lane(t202, 0);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t221 = mul_add(t211, t215, mul_add(t192, t199, t205) + t213);
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t222 = mul_add(t212, t216, mul_add(t194, t200, t206) + t214);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t223 = P::splat(base_rotation[0][1]) * t100;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t224 = P::splat(base_rotation[0][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t225 = P::splat(base_rotation[2][1]) * t100;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t226 = t83 * t83;
+    let t227 = t83 * t215;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t228 = t84 * t84;
+    let t229 = t84 * t216;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t230 = P::splat(base_rotation[1][1]) * t100;
     // second moment of payload and platform-side leg ends
-    let t223 = P::triple([P::lane(t203, 1), P::lane(t194, 2), P::lane(t195, 2)]);
-    let t224 = P::triple([c(0.0), P::lane(t194, 1) + P::lane(t194, 0), t215]);
+    let t231 = P::triple([P::lane(t210, 1), P::lane(t201, 2), P::lane(t202, 2)]);
+    let t232 = P::triple([c(0.0), P::lane(t201, 1) + P::lane(t201, 0), t220]);
+    let t233 = t231 + t232;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t234 = mul_add(P::splat(base_rotation[0][0]), t110, t223);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t235 = mul_add(P::splat(base_rotation[0][0]), t111, t224);
+    let t236 = P::splat(base_rotation[1][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t237 = mul_add(P::splat(base_rotation[2][0]), t110, t225);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = P::splat(base_rotation[2][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t239 = mul_add(P::splat(base_rotation[1][0]), t110, t230);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t240 = t221 * t226;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t241 = t222 * t228;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t242 = t83 * mul_add(t176, t217, neg_mul_add(t110, t207, t178));
+    let t243 = t83 * mul_add(t163, t217, neg_mul_add(t100, t207, t167));
+    let t244 = t83 * mul_add(t187, t217, neg_mul_add(t124, t207, t189));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t245 = t84 * mul_add(t177, t218, neg_mul_add(t111, t208, t179));
+    let t246 = t84 * mul_add(t164, t218, neg_mul_add(t101, t208, t172));
+    let t247 = t84 * mul_add(t188, t218, neg_mul_add(t125, t208, t190));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t248 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t249 = mul_add(P::splat(base_rotation[1][0]), t111, t236);
+    let t250 = mul_add(P::splat(base_rotation[2][0]), t111, t238);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t251 = P::splat(platform_rotation[0][1]) * t9;
+    let t252 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t253 = mul_add(P::splat(base_rotation[0][2]), t124, t234);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t254 = mul_add(P::splat(base_rotation[0][2]), t125, t235);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t255 = mul_add(P::splat(base_rotation[2][2]), t124, t237);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t256 = neg_mul_add(w(2.0), mul_sub(t221, t226, t227), t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t257 = neg_mul_add(w(2.0), mul_sub(t222, t228, t229), t241);
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t258 = t83 * t199;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t259 = t84 * t200;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t260 = mul_add(P::splat(base_rotation[1][2]), t124, t239);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t261 = mul_add(P::splat(platform_rotation[2][0]), t13, t248);
+    // second moment of payload and platform-side leg ends
+    let t262 = P::triple([P::lane(t210, 2), P::lane(t233, 2), P::lane(t219, 2)]);
+    let t263 = P::triple([c(0.0), c(0.0), P::lane(t219, 1) + P::lane(t219, 0)]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t264 = mul_add(P::splat(platform_rotation[0][0]), t13, t251);
+    let t265 = mul_add(P::splat(platform_rotation[1][0]), t13, t252);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t266 = mul_add(P::splat(base_rotation[1][2]), t125, t249);
+    let t267 = mul_add(P::splat(base_rotation[2][2]), t125, t250);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t268 = neg_mul_add(w(2.0), t227, t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t269 = neg_mul_add(w(2.0), t229, t241);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t270 = t253 * t256;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t271 = t254 * t257;
+    // second moment of payload and platform-side leg ends
+    let t272 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t273 = t256 * t260;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t274 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t275 = mul_add(P::splat(platform_rotation[2][2]), t19, t261);
+    let t276 = mul_add(P::splat(platform_rotation[0][2]), t19, t264);
+    let t277 = mul_add(P::splat(platform_rotation[1][2]), t19, t265);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t278 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t279 = mul_add(t253, t270, t268);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t280 = mul_add(t254, t271, t269);
+    let t281 = t266 * t271;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t282 = t255 * t270;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t283 = t267 * t271;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t284 = mul_add(t255, t255 * t256, t268);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t285 = mul_add(t165, t227, mul_add(t166, t258, t215 * t242));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t286 = mul_add(t170, t229, mul_add(t171, t259, t216 * t245));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t287 = mul_add(t152, t227, mul_add(t153, t258, t215 * t243));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t288 = mul_add(t156, t229, mul_add(t157, t259, t216 * t246));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t289 = mul_add(t183, t227, mul_add(t184, t258, t215 * t244));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t290 = mul_add(t185, t229, mul_add(t186, t259, t216 * t247));
+    // second moment of payload and platform-side leg ends
+    let t291 = t272 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t225 =
-        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
-    let t226 =
-        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
-    // second moment of payload and platform-side leg ends
-    let t227 = t223 + t224;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t228 = mul_add(P::splat(base_rotation[0][0]), t105, t218);
-    let t229 = mul_add(P::splat(base_rotation[2][0]), t105, t219);
-    // legs 4, 5, 6: first moment of the upper part about the platform joint
-    let t230 = t149 * t225;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t231 = mul_add(P::splat(base_rotation[1][0]), t105, t222);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t232 = t216 * t220;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t233 = t82 * mul_add(t163, t212, neg_mul_add(t105, t200, t164));
-    let t234 = t82 * mul_add(t150, t212, neg_mul_add(t97, t200, t153));
-    let t235 = t82 * mul_add(t178, t212, neg_mul_add(t119, t200, t179));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t236 = t146 * w(2.0);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t237 = P::splat(platform_rotation[2][1]) * t9;
-    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
-    let t238 = mul_add(t225, t230, mul_add(t205, t210, t213) + t226);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t239 = P::splat(platform_rotation[0][1]) * t9;
-    let t240 = P::splat(platform_rotation[1][1]) * t9;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t241 = mul_add(P::splat(base_rotation[0][2]), t119, t228);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t242 = P::splat(base_rotation[1][1]) * t118;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t243 = mul_add(P::splat(base_rotation[2][2]), t119, t229);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t244 = neg_mul_add(w(2.0), mul_sub(t216, t220, t221), t232);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t245 = t84 * t84;
-    let t246 = t84 * t230;
-    // legs 1, 2, 3: leg inertia between joint and base speeds
-    let t247 = t82 * t191;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t248 = mul_add(P::splat(base_rotation[1][2]), t119, t231);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t249 = mul_add(P::splat(platform_rotation[2][0]), t12, t237);
-    // second moment of payload and platform-side leg ends
-    let t250 = P::triple([P::lane(t203, 2), P::lane(t227, 2), P::lane(t214, 2)]);
-    let t251 = P::triple([c(0.0), c(0.0), P::lane(t214, 1) + P::lane(t214, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t252 = mul_add(P::splat(platform_rotation[0][0]), t12, t239);
-    let t253 = mul_add(P::splat(platform_rotation[1][0]), t12, t240);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t254 = P::splat(base_rotation[0][1]) * t118;
-    let t255 = mul_add(P::splat(base_rotation[1][0]), t125, t242);
-    let t256 = P::splat(base_rotation[2][1]) * t118;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t257 = neg_mul_add(w(2.0), t221, t232);
-    let t258 = t241 * t244;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t259 = t238 * t245;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t260 = t84 * mul_add(t187, t236, neg_mul_add(t125, t217, t190));
-    let t261 = t84 * mul_add(t177, t236, neg_mul_add(t118, t217, t182));
-    let t262 = t84 * mul_add(t199, t236, neg_mul_add(t136, t217, t201));
-    // second moment of payload and platform-side leg ends
-    let t263 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t264 = t244 * t248;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t265 = P::splat(platform_rotation[0][1]) * t18;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t266 = mul_add(P::splat(platform_rotation[2][2]), t13, t249);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t267 = mul_add(P::splat(base_rotation[0][0]), t125, t254);
-    let t268 = mul_add(P::splat(base_rotation[2][0]), t125, t256);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t269 = mul_add(P::splat(platform_rotation[0][2]), t13, t252);
-    let t270 = mul_add(P::splat(platform_rotation[1][2]), t13, t253);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t271 = P::splat(platform_rotation[1][1]) * t18;
-    // legs 4, 5, 6: gradient of the actuator length
-    let t272 = mul_add(P::splat(base_rotation[1][2]), t136, t255);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t273 = neg_mul_add(w(2.0), mul_sub(t238, t245, t246), t259);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t274 = t243 * t258;
-    let t275 = mul_add(t243, t243 * t244, t257);
-    // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t276 = t84 * t210;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t277 = mul_add(t151, t221, mul_add(t152, t247, t211 * t233));
-    let t278 = mul_add(t139, t221, mul_add(t140, t247, t211 * t234));
-    let t279 = mul_add(t170, t221, mul_add(t171, t247, t211 * t235));
-    // second moment of payload and platform-side leg ends
-    let t280 = t263 + parameters.payload_inertia[2][2];
-    // constant and copied elements
-    let t281 =
+    let t292 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t282 =
+    let t293 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t283 = t243 * t264;
-    // legs 1, 2, 3: leg inertia between joint and base speeds
-    let t284 = t82 * t216;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t285 = mul_add(P::splat(platform_rotation[0][0]), t19, t265);
-    let t286 = P::splat(platform_rotation[2][1]) * t18;
-    let t287 = mul_add(P::splat(platform_rotation[1][0]), t19, t271);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t288 = mul_add(P::splat(base_rotation[0][2]), t136, t267);
-    let t289 = mul_add(P::splat(base_rotation[2][2]), t136, t268);
-    // second moment of payload and platform-side leg ends
-    let t290 = P::triple([P::lane(t203, 0), P::lane(t227, 1), P::lane(t250 + t251, 2)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t291 = neg_mul_add(w(2.0), t246, t259);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t292 = mul_add(t248, t264, t257);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t294 = t255 * t273;
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t295 = t83 * t221;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t296 = t84 * t222;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t297 = mul_add(P::splat(platform_rotation[0][0]), t18, t274);
+    let t298 = P::splat(platform_rotation[2][1]) * t12;
     // first moment of payload and platform-side leg ends
-    let t293 = mul_add(t12, t162, t19 * t149);
-    let t294 = mul_add(t9, t162, t18 * t149);
-    let t295 = mul_add(t13, t162, t20 * t149);
-    // second moment of payload and platform-side leg ends
-    let t296 = P::triple([P::lane(t203, 1), P::lane(t227, 2), P::lane(t203, 2)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t297 = t272 * t273;
-    // mass matrix of the legs
-    let t298 = t269 * t283;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t299 = neg_mul_add(t233, t284, t277);
-    let t300 = neg_mul_add(t234, t284, t278);
-    let t301 = neg_mul_add(t235, t284, t279);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t302 = mul_add(P::splat(platform_rotation[2][0]), t19, t286);
-    let t303 = mul_add(P::splat(platform_rotation[0][2]), t20, t285);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t304 = t248 * t258;
-    // mass matrix of the legs
-    let t305 = mul_sub(t269, t275, t266 * t274);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t306 = mul_add(P::splat(platform_rotation[1][2]), t20, t287);
+    let t299 = mul_add(t13, t175, t18 * t162);
+    let t300 = mul_add(t9, t175, t12 * t162);
+    let t301 = mul_add(t19, t175, t20 * t162);
     // constant and copied elements
-    let t307 =
-        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t308 =
-        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t309 = t273 * t288;
-    let t310 = mul_add(t272, t297, t291);
-    let t311 = t289 * t297;
-    // mass matrix of the legs
-    let t312 = mul_sub(t270, t274, t298);
-    let t313 = mul_sub(t266, t283, t270 * t275);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t314 = mul_add(t180, t246, mul_add(t181, t276, t230 * t260));
-    let t315 = mul_add(t172, t246, mul_add(t173, t276, t230 * t261));
-    let t316 = mul_add(t192, t246, mul_add(t193, t276, t230 * t262));
+    let t302 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t303 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t304 = mul_add(P::splat(platform_rotation[1][0]), t18, t278);
     // second moment of payload and platform-side leg ends
-    let t317 = mul_add(P::splat(t280), w(0.5), t290) - t308;
-    // constant and copied elements
-    let t318 =
-        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t319 = mul_add(t241, t258, t257);
-    // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t320 = t84 * t238;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t321 = mul_add(P::splat(platform_rotation[2][2]), t20, t302);
+    let t305 = P::triple([P::lane(t210, 0), P::lane(t233, 1), P::lane(t262 + t263, 2)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t306 = mul_add(t260, t273, t268);
+    // mass matrix of the legs
+    let t307 = mul_add(t260, t270, t281);
+    let t308 = mul_add(t255, t270, t283);
     // second moment of payload and platform-side leg ends
-    let t322 = mul_add(t281 * t282, P::splat(parameters.payload_mass), t296) - t318;
+    let t309 = P::triple([P::lane(t210, 1), P::lane(t233, 2), P::lane(t210, 2)]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t310 = t257 * t266;
     // mass matrix of the legs
-    let t323 = mul_sub(t266, t304, t298);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t324 = t272 * t309;
-    // mass matrix of the legs
-    let t325 = t303 * t311;
-    let t326 = mul_sub(t266, t292, t270 * t283);
-    let t327 = mul_sub(t270, t304, t269 * t292);
-    // second moment of payload and platform-side leg ends
-    let t328 = mul_add(P::splat(parameters.payload_mass), t307 * t307, t317);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t329 = t289 * t309;
-    let t330 = mul_add(t289, t273 * t289, t291);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t331 = neg_mul_add(t260, t320, t314);
-    let t332 = neg_mul_add(t261, t320, t315);
-    let t333 = neg_mul_add(t262, t320, t316);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t334 = mul_sub(t33, t301, t37 * t300);
-    let t335 = mul_sub(t37, t299, t32 * t301);
-    let t336 = mul_sub(t32, t300, t33 * t299);
-    // first moment of payload and platform-side leg ends
-    let t337 = P::triple([P::lane(t293, 0), P::lane(t294, 0), P::lane(t295, 0)]);
-    let t338 = P::triple([P::lane(t293, 1), P::lane(t294, 1), P::lane(t295, 1)]);
-    // mass matrix of the legs
-    let t339 = mul_sub(t321, t324, t325);
-    let t340 = mul_sub(t310, t321, t306 * t311);
-    let t341 = mul_sub(t306, t324, t303 * t310);
-    // first moments by platform coordinate of the payload's inertia force
-    let t342 = t100 * P::splat(P::lane(t322, 0));
-    // first moment of payload and platform-side leg ends
-    let t343 = P::triple([P::lane(t293, 2), P::lane(t294, 2), P::lane(t295, 2)]);
-    // mass matrix of the legs
-    let t344 = mul_sub(t269, t274, t266 * t319);
-    let t345 = mul_sub(t270, t319, t269 * t304);
-    let t346 = mul_add(t321, t339, mul_add(t266, t323, t270 * t305));
-    let t347 = mul_sub(t303, t330, t321 * t329);
-    // first moments by platform coordinate of the payload's inertia force
-    let t348 = mul_add(t111, P::splat(P::lane(t328, 0)), t342);
-    // mass matrix of the legs
-    let t349 = mul_sub(t306, t329, t325);
-    let t350 = mul_add(t321, t340, mul_sub(t266, t326, t270 * t313));
-    let t351 = mul_sub(t311, t321, t306 * t330);
-    let t352 = mul_add(t321, t341, mul_sub(t266, t327, t270 * t312));
-    // first moment of payload and platform-side leg ends
-    let t353 = mul_add(P::splat(parameters.payload_mass), t307, t337 + t338 + t343);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t354 = mul_add(t288, t309, t291);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t355 = neg_mul_add(t45, t332, mul_add(t36, t333, t334));
-    let t356 = neg_mul_add(t39, t333, mul_add(t45, t331, t335));
-    let t357 = neg_mul_add(t36, t331, mul_add(t39, t332, t336));
-    // mass matrix of the legs
-    let t358 = mul_add(t306, t347, t346);
-    // first moments by platform coordinate of the payload's inertia force
-    let t359 = mul_add(t112, P::splat(P::lane(t322, 2)), t348);
-    // mass matrix of the legs
-    let t360 = neg_mul_add(t306, t351, t350);
-    let t361 = neg_mul_add(t306, t349, t352);
+    let t311 = t279 + t280;
+    let t312 = t276 * t294;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t313 = neg_mul_add(t242, t295, t285);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t314 = neg_mul_add(t245, t296, t286);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t315 = neg_mul_add(t243, t295, t287);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t316 = neg_mul_add(t246, t296, t288);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t317 = neg_mul_add(t244, t295, t289);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t318 = neg_mul_add(t247, t296, t290);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t319 = mul_add(P::splat(platform_rotation[2][0]), t18, t298);
     // constant and copied elements
-    let t362 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t363 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t364 = t100 * P::splat(P::lane(t328, 1));
-    // mass matrix of the legs
-    let t365 = mul_add(t248, t258, t324);
-    let t366 = mul_add(t243, t258, t329);
-    let t367 = t319 + t354;
-    // constant and copied elements
-    let t368 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t369 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t370 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t371 = mul_sub(t110, P::splat(P::lane(t353, 0)), t359);
-    let t372 = mul_add(t111, P::splat(P::lane(t322, 0)), t364);
-    // mass matrix of the legs
-    let t373 = mul_add(t303, t347, mul_sub(t269, t305, t266 * t344));
-    let t374 = mul_sub(t303, t329, t321 * t354);
-    let t375 = mul_add(t303, t349, mul_sub(t269, t312, t266 * t345));
-    let t376 = mul_sub(t306, t354, t303 * t324);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t377 = mul_add(t136, t192, mul_add(t125, t180, t118 * t172));
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t378 = mul_add(t64 - t362, t370, t146 * t363);
+    let t320 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t321 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t322 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t323 = mul_add(P::splat(platform_rotation[0][2]), t20, t297);
     // mass of payload and platform-side leg ends
-    let t379 = t149 + t162;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t380 = P::triple([P::lane(t355, 0), P::lane(t356, 0), P::lane(t357, 0)]);
-    let t381 = P::triple([P::lane(t355, 1), P::lane(t356, 1), P::lane(t357, 1)]);
+    let t324 = t162 + t175;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t325 = t260 * t270;
+    // mass matrix of the legs
+    let t326 = mul_sub(t276, t284, t275 * t282);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t327 = mul_add(t125, t185, mul_add(t111, t170, t101 * t156));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t328 = mul_add(t60 - t302, t322, t133 * t303);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t329 = mul_add(P::splat(platform_rotation[1][2]), t20, t304);
     // constant and copied elements
-    let t382 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t383 = mul_add(t119, t170, mul_add(t105, t151, t97 * t139));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t384 = mul_add(t59 - t368, t382, t126 * t369);
+    let t330 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t331 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t332 = mul_add(t266, t310, t269);
+    let t333 = t267 * t310;
+    // mass matrix of the legs
+    let t334 = mul_sub(t277, t282, t312);
+    let t335 = mul_sub(t275, t294, t277 * t284);
+    // second moment of payload and platform-side leg ends
+    let t336 = mul_add(P::splat(t291), w(0.5), t305) - t331;
+    // constant and copied elements
+    let t337 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    let t338 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
     // inertia force less weight, without the actuators' own shares
-    let t385 = t299 + t331;
-    let t386 = t300 + t332;
-    let t387 = t301 + t333;
-    // first moments by platform coordinate of the payload's inertia force
-    let t388 = mul_add(t112, P::splat(P::lane(t322, 1)), t372);
+    let t339 = t313 + t314;
+    let t340 = t315 + t316;
+    let t341 = t317 + t318;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t342 = mul_add(P::splat(platform_rotation[2][2]), t20, t319);
+    // second moment of payload and platform-side leg ends
+    let t343 = mul_add(t292 * t293, P::splat(parameters.payload_mass), t309) - t337;
     // mass matrix of the legs
-    let t389 = neg_mul_add(t321, t374, t373);
-    let t390 = neg_mul_add(t321, t376, t375);
-    let t391 = P::triple([P::lane(t360, 0), -P::lane(t358, 0), P::lane(t361, 0)]);
-    let t392 = P::triple([P::lane(t360, 1), -P::lane(t358, 1), P::lane(t361, 1)]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t393 = mul_add(t136, t193, mul_add(t125, t181, t118 * t173));
+    let t344 = mul_sub(t275, t325, t312);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t345 = mul_add(t124, t183, mul_add(t110, t165, t100 * t152));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t346 = mul_add(t59 - t320, t338, t132 * t321);
+    // first moment of payload and platform-side leg ends
+    let t347 = P::triple([P::lane(t299, 0), P::lane(t300, 0), P::lane(t301, 0)]);
+    let t348 = P::triple([P::lane(t299, 1), P::lane(t300, 1), P::lane(t301, 1)]);
+    // mass matrix of the legs
+    let t349 = t323 * t333;
+    let t350 = mul_sub(t275, t306, t277 * t294);
+    let t351 = mul_sub(t277, t325, t276 * t306);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t352 = mul_add(t125, t186, mul_add(t111, t171, t101 * t157));
+    // second moment of payload and platform-side leg ends
+    let t353 = mul_add(P::splat(parameters.payload_mass), t330 * t330, t336);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t354 = mul_add(t267, t257 * t267, t269);
+    // mass matrix of the legs
+    let t355 = mul_add(t255, t273, t333);
+    let t356 = P::triple([P::lane(t311, 0), P::lane(t307, 0), P::lane(t308, 0)]);
+    let t357 = P::triple([P::lane(t311, 1), P::lane(t307, 1), P::lane(t308, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t358 = mul_sub(t34, t317, t40 * t315);
+    let t359 = mul_sub(t40, t313, t36 * t317);
+    let t360 = mul_sub(t36, t315, t34 * t313);
+    // mass matrix of the legs
+    let t361 = t306 + t332;
+    // first moment of payload and platform-side leg ends
+    let t362 = P::triple([P::lane(t299, 2), P::lane(t300, 2), P::lane(t301, 2)]);
+    // mass matrix of the legs
+    let t363 = mul_sub(t281, t342, t349);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t364 = mul_add(t124, t184, mul_add(t110, t166, t100 * t153));
+    // mass matrix of the legs
+    let t365 = mul_sub(t332, t342, t329 * t333);
+    let t366 = mul_sub(t281, t329, t323 * t332);
+    let t367 = P::triple([P::lane(t311, 2), P::lane(t307, 2), P::lane(t308, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t368 = mul_add(t125, t247, mul_add(t111, t245, t101 * t246));
     // first moments by platform coordinate of the payload's inertia force
-    let t394 = t100 * P::splat(P::lane(t322, 1));
+    let t369 = t104 * P::splat(P::lane(t343, 0));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t370 = mul_add(t259, t352, mul_sub(t229, t327, t328));
+    // mass matrix of the legs
+    let t371 = mul_sub(t276, t282, t275 * t279);
+    let t372 = mul_sub(t277, t279, t276 * t325);
+    let t373 = t356 + t357 + t367;
+    // inertia force less weight, without the actuators' own shares
+    let t374 = P::triple([P::lane(t339, 0), P::lane(t340, 0), P::lane(t341, 0)]);
+    let t375 = P::triple([P::lane(t339, 1), P::lane(t340, 1), P::lane(t341, 1)]);
+    // mass of payload and platform-side leg ends
+    let t376 = P::lane(t324, 2) + (P::lane(t324, 1) + P::lane(t324, 0));
+    // first moment of payload and platform-side leg ends
+    let t377 = mul_add(P::splat(parameters.payload_mass), t330, t347 + t348 + t362);
+    // mass matrix of the legs
+    let t378 = mul_add(t342, t363, mul_add(t275, t344, t277 * t326));
+    let t379 = mul_sub(t323, t354, t283 * t342);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t380 = mul_add(t124, t244, mul_add(t110, t242, t100 * t243));
+    // first moments by platform coordinate of the payload's inertia force
+    let t381 = mul_add(t117, P::splat(P::lane(t353, 0)), t369);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t382 = mul_add(t258, t364, mul_sub(t227, t345, t346));
+    // mass matrix of the legs
+    let t383 = mul_sub(t283, t329, t349);
+    let t384 = mul_add(t342, t365, mul_sub(t275, t350, t277 * t335));
+    let t385 = mul_sub(t333, t342, t329 * t354);
+    let t386 = mul_add(t342, t366, mul_sub(t275, t351, t277 * t334));
+    // inertia force less weight, without the actuators' own shares
+    let t387 = P::triple([P::lane(t339, 2), P::lane(t340, 2), P::lane(t341, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t388 = neg_mul_add(t296, t368, t370);
+    // mass matrix of the legs
+    let t389 = P::lane(t355, 1) + P::lane(t355, 0);
+    // mass of payload and platform-side leg ends
+    let t390 = parameters.payload_mass + t376;
     // moment of the legs' inertia at their joints about the platform origin
-    let t395 = P::triple([P::lane(t355, 2), P::lane(t356, 2), P::lane(t357, 2)]);
-    let t396 = t380 + t381 + t395;
+    let t391 = neg_mul_add(t41, t316, mul_add(t35, t318, t358));
+    let t392 = neg_mul_add(t37, t318, mul_add(t41, t314, t359));
+    let t393 = neg_mul_add(t35, t314, mul_add(t37, t316, t360));
     // mass matrix of the legs
-    let t397 = mul_add(t243, t264, t311);
-    let t398 = P::triple([P::lane(t367, 0), P::lane(t365, 0), P::lane(t366, 0)]);
-    let t399 = P::triple([P::lane(t367, 1), P::lane(t365, 1), P::lane(t366, 1)]);
+    let t394 = t284 + t354;
+    let t395 = mul_add(t281, t342, mul_sub(t275, t325, t277 * t282));
+    let t396 = mul_add(t329, t379, t378);
+    // first moments by platform coordinate of the payload's inertia force
+    let t397 = mul_add(t118, P::splat(P::lane(t343, 2)), t381);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t398 = neg_mul_add(t295, t380, t382);
+    // mass matrix of the legs
+    let t399 = neg_mul_add(t329, t385, t384);
+    let t400 = neg_mul_add(t329, t383, t386);
+    let t401 = P::triple([P::lane(t373, 1), P::lane(t361, 2), P::lane(t355, 2)]);
+    let t402 = P::triple([c(0.0), P::lane(t361, 1) + P::lane(t361, 0), t389]);
+    // inertia force less weight, without the actuators' own shares
+    let t403 = neg_mul_add(t116, P::splat(t390), t374 + t375 + t387);
+    // first moments by platform coordinate of the payload's inertia force
+    let t404 = t104 * P::splat(P::lane(t353, 1));
+    // mass matrix of the legs
+    let t405 = mul_sub(t280, t329, t281 * t323);
+    let t406 = t401 + t402;
     // mass matrix M_p of the platform
-    let t400 = t326 + t340;
+    let t407 = t350 + t365;
+    // mass matrix of the legs
+    let t408 = mul_sub(t283, t323, t280 * t342);
+    // mass matrix M_p of the platform
+    let t409 = t335 + t385;
+    // mass matrix of the legs
+    let t410 = neg_mul_add(t283, t329, t395);
+    // first moments by platform coordinate of the payload's inertia force
+    let t411 = mul_sub(t116, P::splat(P::lane(t377, 0)), t397);
+    let t412 = mul_add(t117, P::splat(P::lane(t343, 0)), t404);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t413 = mul_add(t253, t398, t254 * t388);
+    let t414 = mul_add(t260, t398, t266 * t388);
+    let t415 = mul_add(t255, t398, t267 * t388);
+    // mass matrix M_p of the platform
+    let t416 = platform_rotation[2][1] * P::lane(t377, 1);
+    // mass matrix of the legs
+    let t417 = mul_add(t323, t379, mul_sub(t276, t326, t275 * t371));
+    let t418 = mul_add(t323, t383, mul_sub(t276, t334, t275 * t372));
+    // mass matrix M_p of the platform
+    let t419 = P::triple([c(0.0), t390, c(0.0)]);
+    // inertia force less weight, without the actuators' own shares
+    let t420 = mul_add(t117, P::splat(P::lane(t377, 0)), t403);
+    // mass matrix M_p of the platform
+    let t421 = platform_rotation[1][1] * P::lane(t377, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t422 = P::triple([P::lane(t255, 2), P::lane(t255, 0), P::lane(t255, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t423 = P::triple([P::lane(t253, 1), P::lane(t253, 2), P::lane(t253, 0)]);
+    // mass matrix M_p of the platform
+    let t424 = t372 + t405;
+    let t425 = t326 + t379;
+    // mass matrix of the legs
+    let t426 = t406 + t419;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t427 = P::triple([P::lane(t391, 0), P::lane(t392, 0), P::lane(t393, 0)]);
+    let t428 = P::triple([P::lane(t391, 1), P::lane(t392, 1), P::lane(t393, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t429 = P::triple([P::lane(t255, 1), P::lane(t255, 2), P::lane(t255, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t430 = P::triple([P::lane(t260, 2), P::lane(t260, 0), P::lane(t260, 1)]);
+    // mass matrix M_p of the platform
+    let t431 = t371 + t408;
+    let t432 = t351 + t366;
+    let t433 = P::mul_add(platform_rotation[2][0], P::lane(t377, 0), t416);
+    // mass of payload and platform-side leg ends
+    let t434 = P::triple([t390, c(0.0), c(0.0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t435 = mul_add(t118, P::splat(P::lane(t343, 1)), t412);
+    // mass matrix M_p of the platform
+    let t436 = P::mul_add(platform_rotation[1][0], P::lane(t377, 0), t421);
+    let t437 = platform_rotation[0][1] * P::lane(t377, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t438 = P::triple([P::lane(t253, 2), P::lane(t253, 0), P::lane(t253, 1)]);
+    // mass matrix of the legs
+    let t439 = t334 + t383;
+    let t440 = neg_mul_add(t342, t408, t417);
+    let t441 = neg_mul_add(t342, t405, t418);
+    let t442 = P::triple([P::lane(t373, 2), P::lane(t406, 2), P::lane(t394, 2)]);
+    let t443 = P::triple([c(0.0), c(0.0), P::lane(t394, 1) + P::lane(t394, 0)]);
+    let t444 = P::triple([P::lane(t399, 0), -P::lane(t396, 0), P::lane(t400, 0)]);
+    let t445 = P::triple([P::lane(t399, 1), -P::lane(t396, 1), P::lane(t400, 1)]);
+    // mass matrix M_p of the platform
+    let t446 = t373 + t434;
+    // inertia force less weight, without the actuators' own shares
+    let t447 = mul_add(t104, P::splat(P::lane(t377, 1)), t420);
+    // first moments by platform coordinate of the payload's inertia force
+    let t448 = t104 * P::splat(P::lane(t343, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t449 = P::triple([P::lane(t391, 2), P::lane(t392, 2), P::lane(t393, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t450 = t426 * P::splat(platform_acceleration[1]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t451 = P::triple([P::lane(t260, 1), P::lane(t260, 2), P::lane(t260, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t452 = mul_sub(t429, t438, t422 * t423);
+    // mass matrix of the legs
+    let t453 = t344 + t363;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t454 = t427 + t428 + t449;
+    // force along the actuator that balances the remaining wrench
+    let t455 = mul_sub(t422, t451, t429 * t430);
+    // mass matrix M_p of the platform
+    let t456 = P::mul_add(platform_rotation[2][2], P::lane(t377, 2), t433);
+    let t457 = P::mul_add(platform_rotation[0][0], P::lane(t377, 0), t437);
     // constant and copied elements
-    let t401 =
+    let t458 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t402 = mul_add(t321, t324, mul_sub(t266, t304, t270 * t274));
-    let t403 = t292 + t310;
-    let t404 = P::triple([P::lane(t360, 2), -P::lane(t358, 2), P::lane(t361, 2)]);
-    // mass matrix M_p of the platform
-    let t405 = t327 + t341;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t406 = mul_add(t119, t171, mul_add(t105, t152, t97 * t140));
+    let t459 = P::triple([P::lane(t399, 2), -P::lane(t396, 2), P::lane(t400, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t407 = mul_sub(t110, P::splat(P::lane(t353, 1)), t388);
-    let t408 = mul_add(t111, P::splat(P::lane(t322, 2)), t394);
-    let t409 = P::triple([P::lane(t371, 2), P::lane(t371, 0), P::lane(t371, 1)]);
+    let t460 = mul_sub(t116, P::splat(P::lane(t377, 1)), t435);
+    let t461 = mul_add(t117, P::splat(P::lane(t343, 2)), t448);
+    let t462 = P::triple([P::lane(t411, 2), P::lane(t411, 0), P::lane(t411, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t463 = P::triple([P::lane(t413, 0), P::lane(t414, 0), P::lane(t415, 0)]);
+    let t464 = P::triple([P::lane(t413, 1), P::lane(t414, 1), P::lane(t415, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t410 = P::splat(parameters.payload_com[1]) * t401;
-    // mass matrix of the legs
-    let t411 = mul_add(t306, t376, mul_sub(t270, t345, t269 * t327));
-    let t412 = t391 + t392 + t404;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t413 = mul_add(t136, t262, mul_add(t125, t260, t118 * t261));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t414 = mul_add(t276, t393, mul_sub(t246, t377, t378));
+    let t465 = mul_add(t446, P::splat(platform_acceleration[0]), t450);
     // mass matrix M_p of the platform
-    let t415 = platform_rotation[2][1] * P::lane(t353, 1);
+    let t466 = P::mul_add(platform_rotation[1][2], P::lane(t377, 2), t436);
+    // inertia less external wrench that the actuators must balance
+    let t467 = P::splat(parameters.payload_com[1]) * t458;
     // mass matrix of the legs
-    let t416 = P::triple([P::lane(t367, 2), P::lane(t365, 2), P::lane(t366, 2)]);
-    // mass matrix M_p of the platform
-    let t417 = t345 + t376;
-    let t418 = t305 + t347;
-    let t419 = platform_rotation[0][1] * P::lane(t353, 1);
-    // constant and copied elements
-    let t420 =
-        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
-    // mass matrix of the legs
-    let t421 = t323 + t339;
-    let t422 = t398 + t399 + t416;
-    // mass matrix M_p of the platform
-    let t423 = t344 + t374;
-    let t424 = t313 + t351;
+    let t468 = mul_add(t329, t405, mul_sub(t277, t372, t276 * t351));
+    let t469 = t444 + t445 + t459;
+    let t470 = t442 + t443 + P::triple([c(0.0), c(0.0), t390]);
     // inertia force less weight, without the actuators' own shares
-    let t425 = P::triple([P::lane(t385, 0), P::lane(t386, 0), P::lane(t387, 0)]);
-    let t426 = P::triple([P::lane(t385, 1), P::lane(t386, 1), P::lane(t387, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t427 = mul_add(P::splat(parameters.payload_com[0]), t420, t410);
-    // mass matrix of the legs
-    let t428 = neg_mul_add(t306, t329, t402);
-    // mass of payload and platform-side leg ends
-    let t429 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
-    // mass matrix M_p of the platform
-    let t430 = platform_rotation[0][1] * P::lane(t322, 0);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t431 = mul_add(t119, t235, mul_add(t105, t233, t97 * t234));
-    // first moments by platform coordinate of the payload's inertia force
-    let t432 = mul_add(t112, P::splat(P::lane(t328, 2)), t408);
-    // rotation of the platform seen from the base
-    let t433 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t434 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t435 = mul_add(t247, t406, mul_sub(t221, t383, t384));
-    // mass matrix M_p of the platform
-    let t436 = P::mul_add(platform_rotation[2][0], P::lane(t353, 0), t415);
-    let t437 = platform_rotation[1][1] * P::lane(t353, 1);
-    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t438 = mul_sub(t289, t306, t272 * t321);
-    let t439 = mul_sub(t288, t321, t289 * t303);
-    let t440 = mul_sub(t272, t303, t288 * t306);
-    // mass matrix of the legs
-    let t441 = t312 + t349;
-    let t442 = neg_mul_add(t303, t341, t411);
-    let t443 = P::lane(t390, 1) + P::lane(t390, 0);
-    // moment of the inertia force about the platform origin
-    let t444 = mul_add(t433, t434, neg_mul_add(t66, t409, t396));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t445 = neg_mul_add(t320, t413, t414);
-    // mass matrix M_p of the platform
-    let t446 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t419);
-    // inertia force less weight, without the actuators' own shares
-    let t447 = P::triple([P::lane(t385, 2), P::lane(t386, 2), P::lane(t387, 2)]);
-    // constant and copied elements
-    let t448 =
-        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
-    // mass matrix of the legs
-    let t449 = P::lane(t397, 1) + P::lane(t397, 0);
-    // mass of payload and platform-side leg ends
-    let t450 = parameters.payload_mass + t429;
-    // mass matrix M_p of the platform
-    let t451 = P::mul_add(platform_rotation[0][0], P::lane(t328, 0), t430);
-    // constant and copied elements
-    let t452 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // mass matrix M_p of the platform
-    let t453 = P::mul_add(platform_rotation[1][0], P::lane(t353, 0), t437);
-    // inertia less external wrench that the actuators must balance
-    let t454 = mul_add(P::splat(parameters.payload_com[2]), t448, t427);
-    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t455 = mul_sub(t243, t270, t248 * t266);
-    let t456 = mul_sub(t241, t266, t243 * t269);
-    let t457 = mul_sub(t248, t269, t241 * t270);
-    // mass matrix of the legs
-    let t458 = t275 + t330;
-    let t459 = P::triple([P::lane(t412, 1), P::lane(t389, 2), P::lane(t390, 2)]);
-    let t460 = P::triple([c(0.0), P::lane(t389, 1) + P::lane(t389, 0), t443]);
-    // mass matrix M_p of the platform
-    let t461 = P::lane(t328, 2) + (P::lane(t328, 0) + P::lane(t328, 1));
-    let t462 = platform_rotation[0][1] * P::lane(t328, 1);
-    let t463 = P::splat(P::lane(t322, 0)) * t452;
-    // first moments by platform coordinate of the payload's inertia force
-    let t464 = mul_sub(t110, P::splat(P::lane(t353, 2)), t432);
-    let t465 = P::triple([P::lane(t407, 2), P::lane(t407, 0), P::lane(t407, 1)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t466 = neg_mul_add(t284, t431, t435);
-    // mass matrix M_p of the platform
-    let t467 = P::mul_add(platform_rotation[2][2], P::lane(t353, 2), t436);
-    // mass matrix of the legs
-    let t468 = t459 + t460;
-    // mass matrix M_p of the platform
-    let t469 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t446);
-    // mass matrix of the legs
-    let t470 = P::triple([P::lane(t422, 1), P::lane(t403, 2), P::lane(t397, 2)]);
-    let t471 = P::triple([c(0.0), P::lane(t403, 1) + P::lane(t403, 0), t449]);
+    let t471 = mul_add(t118, P::splat(P::lane(t377, 2)), t447);
     // constant and copied elements
     let t472 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t473 = neg_mul_add(t110, P::splat(t450), t425 + t426 + t447);
-    // mass matrix of the legs
-    let t474 = t470 + t471;
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t473 = P::triple([P::lane(t413, 2), P::lane(t414, 2), P::lane(t415, 2)]);
     // mass matrix M_p of the platform
-    let t475 = P::mul_add(platform_rotation[0][2], P::lane(t322, 2), t451);
+    let t474 = P::mul_add(platform_rotation[0][2], P::lane(t377, 2), t457);
+    // inertia less external wrench that the actuators must balance
+    let t475 = mul_add(P::splat(parameters.payload_com[0]), t472, t467);
+    // force along the actuator that balances the remaining wrench
+    let t476 = t266 * P::splat(P::lane(t452, 0));
+    // mass matrix M_p of the platform
+    let t477 = platform_rotation[0][1] * P::lane(t343, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t478 = mul_add(t118, P::splat(P::lane(t353, 2)), t461);
+    // rotation of the platform seen from the base
+    let t479 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t480 = P::triple([P::lane(t411, 1), P::lane(t411, 2), P::lane(t411, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t481 = mul_add(t470, P::splat(platform_acceleration[2]), t465);
+    // mass matrix M_p of the platform
+    let t482 = t466 - (P::lane(t409, 2) + (P::lane(t409, 1) + P::lane(t409, 0)));
+    mass_matrix_p[2][3] = t482;
+    mass_matrix_p[3][2] = t482;
+    // force along the actuator that balances the remaining wrench
+    let t483 = mul_sub(t423, t430, t438 * t451);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t484 = mul_sub(t267, t329, t266 * t342);
+    let t485 = mul_sub(t254, t342, t267 * t323);
+    let t486 = mul_sub(t266, t323, t254 * t329);
+    // mass matrix of the legs
+    let t487 = neg_mul_add(t323, t366, t468);
+    let t488 = P::lane(t441, 1) + P::lane(t441, 0);
+    // moment of the inertia force about the platform origin
+    let t489 = mul_add(t479, t480, neg_mul_add(t66, t462, t454));
     // constant and copied elements
-    let t476 =
+    let t490 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t491 = -(P::lane(t410, 2) + (P::lane(t410, 1) + P::lane(t410, 0)));
+    mass_matrix_p[0][3] = t491;
+    mass_matrix_p[3][0] = t491;
+    // mass matrix M_p of the platform
+    let t492 = -(t456 + (P::lane(t407, 2) + (P::lane(t407, 1) + P::lane(t407, 0))));
+    mass_matrix_p[1][3] = t492;
+    mass_matrix_p[3][1] = t492;
+    // constant and copied elements
+    let t493 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t494 = mul_add(t254, P::splat(P::lane(t455, 0)), t476);
+    let t495 = P::lane(t253, 1) * P::lane(t455, 1);
+    // mass matrix M_p of the platform
+    let t496 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t477);
+    // constant and copied elements
+    let t497 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t498 = neg_mul_add(P::splat(P::lane(t471, 0)), t490, t463 + t464 + t473);
+    // mass matrix of the legs
+    let t499 = P::triple([t491, t492, t482]);
+    // inertia less external wrench that the actuators must balance
+    let t500 = mul_add(P::splat(parameters.payload_com[2]), t493, t475);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t501 = mul_sub(t255, t277, t260 * t275);
+    let t502 = mul_sub(t253, t275, t255 * t276);
+    let t503 = mul_sub(t260, t276, t253 * t277);
+    // mass matrix of the legs
+    let t504 = P::triple([P::lane(t469, 1), P::lane(t440, 2), P::lane(t441, 2)]);
+    let t505 = P::triple([c(0.0), P::lane(t440, 1) + P::lane(t440, 0), t488]);
+    // mass matrix M_p of the platform
+    let t506 = P::lane(t353, 2) + (P::lane(t353, 0) + P::lane(t353, 1));
+    let t507 = platform_rotation[0][1] * P::lane(t353, 1);
+    let t508 = P::splat(P::lane(t343, 0)) * t497;
+    // first moments by platform coordinate of the payload's inertia force
+    let t509 = mul_sub(t116, P::splat(P::lane(t377, 2)), t478);
+    let t510 = P::triple([P::lane(t460, 2), P::lane(t460, 0), P::lane(t460, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t511 = mul_add(t499, P::splat(platform_acceleration[3]), t481);
+    // mass matrix M_p of the platform
+    let t512 = t456 - (P::lane(t431, 2) + (P::lane(t431, 1) + P::lane(t431, 0)));
+    mass_matrix_p[0][4] = t512;
+    mass_matrix_p[4][0] = t512;
+    // mass matrix of the legs
+    let t513 = P::lane(t453, 2) + (P::lane(t453, 1) + P::lane(t453, 0));
+    mass_matrix_p[1][4] = t513;
+    mass_matrix_p[4][1] = t513;
+    // mass matrix M_p of the platform
+    let t514 = t474 - (P::lane(t432, 2) + (P::lane(t432, 1) + P::lane(t432, 0)));
+    mass_matrix_p[1][5] = t514;
+    mass_matrix_p[5][1] = t514;
+    // mass matrix of the legs
+    let t515 = t504 + t505;
+    // force along the actuator that balances the remaining wrench
+    let t516 = P::mul_add(P::lane(t253, 0), P::lane(t455, 0), t495);
+    // constant and copied elements
+    let t517 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t518 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t519 = -(t474 + (P::lane(t425, 2) + (P::lane(t425, 1) + P::lane(t425, 0))));
+    mass_matrix_p[2][4] = t519;
+    mass_matrix_p[4][2] = t519;
+    let t520 = -(t466 + (P::lane(t424, 2) + (P::lane(t424, 1) + P::lane(t424, 0))));
+    mass_matrix_p[0][5] = t520;
+    mass_matrix_p[5][0] = t520;
+    // mass matrix of the legs
+    let t521 = -(P::lane(t439, 2) + (P::lane(t439, 1) + P::lane(t439, 0)));
+    mass_matrix_p[2][5] = t521;
+    mass_matrix_p[5][2] = t521;
+    // force along the actuator that balances the remaining wrench
+    let t522 = mul_add(t267, P::splat(P::lane(t483, 0)), t494);
+    let t523 = t266 * P::splat(P::lane(t452, 1));
+    // mass matrix M_p of the platform
+    let t524 = P::mul_add(platform_rotation[0][2], P::lane(t343, 2), t496);
+    // constant and copied elements
+    let t525 =
         P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t477 = P::mul_add(platform_rotation[0][0], P::lane(t322, 0), t462);
-    let t478 = mul_add(P::splat(P::lane(t328, 0)), t472, t463);
-    let t479 = P::mul_add(platform_rotation[1][2], P::lane(t353, 2), t453);
-    // constant and copied elements
-    let t480 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t481 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    let t526 = P::mul_add(platform_rotation[0][0], P::lane(t343, 0), t507);
+    let t527 = mul_add(P::splat(P::lane(t353, 0)), t517, t508);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t528 = mul_sub(P::splat(P::lane(t471, 1)), t518, t498);
     // mass matrix M_p of the platform
-    let t482 = t412 + P::triple([t461, c(0.0), c(0.0)]);
-    let t483 = platform_rotation[0][1] * P::lane(t322, 1);
-    let t484 = P::splat(P::lane(t328, 1)) * t452;
-    let t485 = P::splat(P::lane(t322, 0)) * t476;
+    let t529 = P::triple([t512, t513, t519]);
+    let t530 = P::triple([t520, t514, t521]);
+    // constant and copied elements
+    let t531 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t532 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t533 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t534 = t469 + P::triple([t506, c(0.0), c(0.0)]);
+    let t535 = platform_rotation[0][1] * P::lane(t343, 1);
+    let t536 = P::splat(P::lane(t353, 1)) * t497;
+    let t537 = P::splat(P::lane(t343, 0)) * t525;
     // rotation of the platform seen from the base
-    let t486 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t538 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t487 = P::triple([P::lane(t407, 1), P::lane(t407, 2), P::lane(t407, 0)]);
+    let t539 = P::triple([P::lane(t460, 1), P::lane(t460, 2), P::lane(t460, 0)]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t488 = mul_add(t455, t466, t438 * t445);
-    let t489 = mul_add(t456, t466, t439 * t445);
-    let t490 = mul_add(t457, t466, t440 * t445);
+    let t540 = mul_add(t398, t501, t388 * t484);
+    let t541 = mul_add(t398, t502, t388 * t485);
+    let t542 = mul_add(t398, t503, t388 * t486);
+    // inertia less external wrench that the actuators must balance
+    let t543 = mul_sub(t530, P::splat(platform_acceleration[5]), t531);
     // moment of the inertia force about the platform origin
-    let t491 = neg_mul_add(t486, t487, mul_sub(t65, t465, t444));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t492 = mul_add(t241, t466, t288 * t445);
-    let t493 = mul_add(t248, t466, t272 * t445);
-    let t494 = mul_add(t243, t466, t289 * t445);
-    // mass matrix of the legs
-    let t495 = P::lane(t421, 2) + (P::lane(t421, 1) + P::lane(t421, 0));
-    mass_matrix_p[1][4] = t495;
-    mass_matrix_p[4][1] = t495;
-    // mass matrix M_p of the platform
-    let t496 = t469 - (P::lane(t405, 2) + (P::lane(t405, 1) + P::lane(t405, 0)));
-    mass_matrix_p[1][5] = t496;
-    mass_matrix_p[5][1] = t496;
-    let t497 = P::triple([c(0.0), t450, c(0.0)]);
-    // constant and copied elements
-    let t498 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t499 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
-    // inertia force less weight, without the actuators' own shares
-    let t500 = mul_add(t111, P::splat(P::lane(t353, 0)), t473);
-    // mass matrix of the legs
-    let t501 = t474 + t497;
-    // mass matrix M_p of the platform
-    let t502 = neg_mul_add(P::splat(t475), t498, t482);
-    let t503 = P::mul_add(platform_rotation[0][2], P::lane(t322, 1), t477);
-    let t504 = P::mul_add(platform_rotation[0][0], P::lane(t322, 2), t483);
-    let t505 = P::triple([c(0.0), t461, c(0.0)]);
-    let t506 = mul_add(P::splat(P::lane(t322, 2)), t499, t478);
-    let t507 = mul_add(P::splat(P::lane(t322, 0)), t472, t484);
-    let t508 = mul_add(P::splat(P::lane(t328, 0)), t498, t485);
-    let t509 = -(t467 + (P::lane(t400, 2) + (P::lane(t400, 1) + P::lane(t400, 0))));
-    mass_matrix_p[1][3] = t509;
-    mass_matrix_p[3][1] = t509;
-    // constant and copied elements
-    let t510 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
-    // inertia less external wrench that the actuators must balance
-    let t511 = P::triple([P::lane(t454, 1), P::lane(t454, 2), P::lane(t454, 0)]);
-    // mass matrix of the legs
-    let t512 = P::triple([P::lane(t412, 2), P::lane(t468, 2), P::lane(t442, 2)]);
-    let t513 = P::triple([c(0.0), c(0.0), P::lane(t442, 1) + P::lane(t442, 0)]);
-    let t514 = t468 + t505;
-    // mass matrix M_p of the platform
-    let t515 = P::splat(P::lane(t322, 1)) * t452;
-    let t516 = P::splat(P::lane(t328, 1)) * t476;
-    // first moments by platform coordinate of the payload's inertia force
-    let t517 = P::triple([P::lane(t464, 2), P::lane(t464, 0), P::lane(t464, 1)]);
-    // mass matrix M_p of the platform
-    let t518 = t479 - (P::lane(t424, 2) + (P::lane(t424, 1) + P::lane(t424, 0)));
-    mass_matrix_p[2][3] = t518;
-    mass_matrix_p[3][2] = t518;
-    let t519 = t467 - (P::lane(t423, 2) + (P::lane(t423, 1) + P::lane(t423, 0)));
-    mass_matrix_p[0][4] = t519;
-    mass_matrix_p[4][0] = t519;
-    let t520 = P::triple([t509, t495, t496]);
-    // inertia less external wrench that the actuators must balance
-    let t521 = neg_mul_add(t510, t511, mul_add(t454, t481, t480));
-    // mass of payload and platform-side leg ends
-    let t522 = P::triple([t450, c(0.0), c(0.0)]);
-    // inertia less external wrench that the actuators must balance
-    let t523 = t520 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t524 = P::triple([P::lane(t422, 2), P::lane(t474, 2), P::lane(t458, 2)]);
-    let t525 = P::triple([c(0.0), c(0.0), P::lane(t458, 1) + P::lane(t458, 0)]);
-    // mass matrix M_p of the platform
-    let t526 = t422 + t522;
-    // constant and copied elements
-    let t527 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t528 =
-        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t529 = mul_add(t100, P::splat(P::lane(t353, 1)), t500);
-    // inertia less external wrench that the actuators must balance
-    let t530 = t501 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t531 = -(P::lane(t428, 2) + (P::lane(t428, 1) + P::lane(t428, 0)));
-    mass_matrix_p[0][3] = t531;
-    mass_matrix_p[3][0] = t531;
-    // mass matrix M_p of the platform
-    let t532 = -(t469 + (P::lane(t418, 2) + (P::lane(t418, 1) + P::lane(t418, 0))));
-    mass_matrix_p[2][4] = t532;
-    mass_matrix_p[4][2] = t532;
-    let t533 = -(t479 + (P::lane(t417, 2) + (P::lane(t417, 1) + P::lane(t417, 0))));
-    mass_matrix_p[0][5] = t533;
-    mass_matrix_p[5][0] = t533;
-    // mass matrix of the legs
-    let t534 = -(P::lane(t441, 2) + (P::lane(t441, 1) + P::lane(t441, 0)));
-    mass_matrix_p[2][5] = t534;
-    mass_matrix_p[5][2] = t534;
-    // mass matrix M_p of the platform
-    let t535 = neg_mul_add(t476, P::splat(t503), t502);
-    let t536 = P::mul_add(platform_rotation[0][2], P::lane(t328, 2), t504);
-    let t537 = mul_add(P::splat(P::lane(t322, 1)), t499, t507);
-    let t538 = mul_add(P::splat(P::lane(t322, 2)), t472, t515);
-    let t539 = P::triple([c(0.0), c(0.0), t461]);
-    let t540 = mul_add(P::splat(P::lane(t322, 2)), t527, t508);
-    let t541 = mul_add(P::splat(P::lane(t322, 0)), t498, t516);
-    // mass matrix of the legs
-    let t542 = P::triple([t531, t519, t533]);
-    // mass matrix M_p of the platform
-    let t543 = P::triple([t518, t532, t534]);
-    // mass matrix of the legs
-    let t544 = t512 + t513 + t539;
-    // mass matrix M_p of the platform
-    let t545 = P::splat(P::lane(t322, 1)) * t476;
-    // rotation of the platform seen from the base
-    let t546 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t547 = P::triple([P::lane(t464, 1), P::lane(t464, 2), P::lane(t464, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t548 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
-    let t549 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t550 = neg_mul_add(t543, P::splat(platform_acceleration[2]), t521);
-    // moment of the inertia force about the platform origin
-    let t551 = neg_mul_add(t546, t547, mul_add(t67, t517, t491));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t552 = P::triple([P::lane(t492, 0), P::lane(t493, 0), P::lane(t494, 0)]);
-    let t553 = P::triple([P::lane(t492, 1), P::lane(t493, 1), P::lane(t494, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t554 = mul_add(t526, P::splat(platform_acceleration[0]), t530);
-    // mass matrix of the legs
-    let t555 = t524 + t525 + P::triple([c(0.0), c(0.0), t450]);
-    // constant and copied elements
-    let t556 =
-        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // inertia force less weight, without the actuators' own shares
-    let t557 = mul_add(t112, P::splat(P::lane(t353, 2)), t529);
-    // mass matrix M_p of the platform
-    let t558 = neg_mul_add(t527, P::splat(t536), t535);
-    let t559 = neg_mul_add(t537, t556, neg_mul_add(t506, t528, t514));
-    let t560 = mul_add(P::splat(P::lane(t328, 2)), t499, t538);
-    let t561 = neg_mul_add(P::splat(platform_rotation[2][0]), t540, t544);
-    let t562 = mul_add(P::splat(P::lane(t322, 1)), t527, t541);
-    let t563 = mul_add(P::splat(P::lane(t322, 2)), t498, t545);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t564 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
-    let t565 = P::triple([P::lane(t492, 2), P::lane(t493, 2), P::lane(t494, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t566 = t550 - mul_add(t542, P::splat(platform_acceleration[0]), t523);
-    let t567 = mul_add(P::splat(platform_acceleration[2]), t555, t554);
-    // constant and copied elements
-    let t568 =
-        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t569 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix M_p of the platform
-    let t570 = neg_mul_add(t560, t568, t559);
-    let t571 = neg_mul_add(P::splat(platform_rotation[2][1]), t562, t561);
-    let t572 = mul_add(P::splat(P::lane(t328, 2)), t527, t563);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t573 = mul_add(P::splat(P::lane(t551, 0)), t569, t548 + t549 + t564);
-    // inertia less external wrench that the actuators must balance
-    let t574 = neg_mul_add(t558, P::splat(platform_acceleration[3]), t566);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t575 = neg_mul_add(t569, P::splat(P::lane(t557, 0)), t552 + t553 + t565);
-    // mass matrix of the legs
-    let t576 = P::triple([t531, t509, t518]);
-    // constant and copied elements
-    let t577 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t578 = mul_add(P::splat(platform_acceleration[3]), t576, t567);
-    // mass matrix M_p of the platform
-    let t579 = neg_mul_add(P::splat(platform_rotation[2][2]), t572, t571);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t580 = mul_add(P::splat(P::lane(t551, 1)), t577, t573);
-    // inertia less external wrench that the actuators must balance
-    let t581 = neg_mul_add(t570, P::splat(platform_acceleration[4]), t574);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t582 = mul_sub(P::splat(P::lane(t557, 1)), t577, t575);
-    // mass matrix M_p of the platform
-    let t583 = P::triple([t519, t495, t532]);
-    let t584 = P::triple([t533, t496, t534]);
-    // constant and copied elements
-    let t585 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    // inertia less external wrench that the actuators must balance
-    let t586 = mul_sub(t584, P::splat(platform_acceleration[5]), t585);
-    // constant and copied elements
-    let t587 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t588 = mul_add(P::splat(P::lane(t551, 2)), t587, t580);
-    let t589 = mul_add(P::splat(P::lane(t557, 2)), t587, t582);
-    // inertia less external wrench that the actuators must balance
-    let t590 = mul_add(P::splat(platform_acceleration[4]), t583, t578) + t586;
-    let t591 = neg_mul_add(t579, P::splat(platform_acceleration[5]), t581) + t588;
-    let t592 = t589 + t590;
-    let t593 = -P::lane(t591, 0);
-    let t594 = -P::lane(t591, 1);
-    let t595 = -P::lane(t591, 2);
+    let t544 = neg_mul_add(t538, t539, mul_sub(t65, t510, t489));
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t545 = mul_add(t254, P::splat(P::lane(t455, 1)), t523);
+    let t546 = P::mul_add(P::lane(t253, 2), P::lane(t455, 2), t516);
+    // constant and copied elements
+    let t547 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t548 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t549 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t550 = t266 * P::splat(P::lane(t452, 2));
+    // mass matrix M_p of the platform
+    let t551 = neg_mul_add(P::splat(t524), t547, t534);
+    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t343, 1), t526);
+    let t553 = P::mul_add(platform_rotation[0][0], P::lane(t343, 2), t535);
+    let t554 = P::triple([c(0.0), t506, c(0.0)]);
+    let t555 = mul_add(P::splat(P::lane(t343, 2)), t548, t527);
+    let t556 = mul_add(P::splat(P::lane(t343, 0)), t517, t536);
+    let t557 = mul_add(P::splat(P::lane(t353, 0)), t547, t537);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t558 = mul_add(P::splat(P::lane(t471, 2)), t549, t528);
+    // constant and copied elements
+    let t559 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t560 = P::triple([P::lane(t500, 1), P::lane(t500, 2), P::lane(t500, 0)]);
+    // mass matrix of the legs
+    let t561 = P::triple([P::lane(t469, 2), P::lane(t515, 2), P::lane(t487, 2)]);
+    let t562 = P::triple([c(0.0), c(0.0), P::lane(t487, 1) + P::lane(t487, 0)]);
+    let t563 = t515 + t554;
+    // mass matrix M_p of the platform
+    let t564 = P::splat(P::lane(t343, 1)) * t497;
+    let t565 = P::splat(P::lane(t353, 1)) * t525;
+    // first moments by platform coordinate of the payload's inertia force
+    let t566 = P::triple([P::lane(t509, 2), P::lane(t509, 0), P::lane(t509, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t567 = mul_add(t529, P::splat(platform_acceleration[4]), t511) + t543;
+    // mass matrix M_p of the platform
+    let t568 = P::triple([t492, t513, t514]);
+    // inertia less external wrench that the actuators must balance
+    let t569 = neg_mul_add(t559, t560, mul_add(t500, t533, t532));
+    let t570 = P::splat(platform_acceleration[1]) * t568;
+    // force along the actuator that balances the remaining wrench
+    let t571 = mul_add(t267, P::splat(P::lane(t483, 1)), t545);
+    let t572 = mul_add(t254, P::splat(P::lane(t455, 2)), t550);
+    let t573 = mul_sub(t485, P::splat(t546), t522 * P::splat(P::lane(t502, 0)));
+    let t574 = mul_sub(t486, P::splat(t546), t522 * P::splat(P::lane(t503, 0)));
+    // constant and copied elements
+    let t575 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t576 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t577 = neg_mul_add(t525, P::splat(t552), t551);
+    let t578 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t553);
+    let t579 = mul_add(P::splat(P::lane(t343, 1)), t548, t556);
+    let t580 = mul_add(P::splat(P::lane(t343, 2)), t517, t564);
+    let t581 = P::triple([c(0.0), c(0.0), t506]);
+    let t582 = mul_add(P::splat(P::lane(t343, 2)), t575, t557);
+    let t583 = mul_add(P::splat(P::lane(t343, 0)), t547, t565);
+    // inertia less external wrench that the actuators must balance
+    let t584 = t558 + t567;
+    // mass matrix of the legs
+    let t585 = P::triple([t491, t512, t520]);
+    // mass matrix M_p of the platform
+    let t586 = P::triple([t482, t519, t521]);
+    // mass matrix of the legs
+    let t587 = t561 + t562 + t581;
+    // mass matrix M_p of the platform
+    let t588 = P::splat(P::lane(t343, 1)) * t525;
+    // rotation of the platform seen from the base
+    let t589 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t590 = P::triple([P::lane(t509, 1), P::lane(t509, 2), P::lane(t509, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t591 = P::triple([P::lane(t540, 0), P::lane(t541, 0), P::lane(t542, 0)]);
+    let t592 = P::triple([P::lane(t540, 1), P::lane(t541, 1), P::lane(t542, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t593 = neg_mul_add(P::splat(platform_acceleration[2]), t586, t569);
+    // moment of the inertia force about the platform origin
+    let t594 = neg_mul_add(t589, t590, mul_add(t67, t566, t544));
+    // force along the actuator that balances the remaining wrench
+    let t595 = mul_add(t267, P::splat(P::lane(t483, 2)), t572);
+    let t596 = neg_mul_add(P::splat(P::lane(t502, 1)), t571, t573);
+    let t597 = neg_mul_add(P::splat(P::lane(t503, 1)), t571, t574);
+    // constant and copied elements
+    let t598 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t599 = neg_mul_add(t575, P::splat(t578), t577);
+    let t600 = neg_mul_add(t579, t598, neg_mul_add(t555, t576, t563));
+    let t601 = mul_add(P::splat(P::lane(t353, 2)), t548, t580);
+    let t602 = neg_mul_add(P::splat(platform_rotation[2][0]), t582, t587);
+    let t603 = mul_add(P::splat(P::lane(t343, 1)), t575, t583);
+    let t604 = mul_add(P::splat(P::lane(t343, 2)), t547, t588);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t605 = P::triple([P::lane(t540, 2), P::lane(t541, 2), P::lane(t542, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t606 = t593 - mul_add(P::splat(platform_acceleration[0]), t585, t570);
+    // force along the actuator that balances the remaining wrench
+    let t607 = neg_mul_add(P::splat(P::lane(t502, 2)), t595, t596);
+    let t608 = neg_mul_add(P::splat(P::lane(t503, 2)), t595, t597);
+    // constant and copied elements
+    let t609 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t610 = t452 * P::splat(P::lane(t584, 1));
+    // mass matrix M_p of the platform
+    let t611 = neg_mul_add(t601, t609, t600);
+    let t612 = neg_mul_add(P::splat(platform_rotation[2][1]), t603, t602);
+    let t613 = mul_add(P::splat(P::lane(t353, 2)), t575, t604);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t614 = mul_add(t490, P::splat(P::lane(t594, 0)), t591 + t592 + t605);
+    // inertia less external wrench that the actuators must balance
+    let t615 = neg_mul_add(P::splat(platform_acceleration[3]), t599, t606);
+    // force along the actuator that balances the remaining wrench
+    let t616 = mul_sub(t484, P::splat(t546), t522 * P::splat(P::lane(t501, 0)));
+    let t617 = mul_add(t455, P::splat(P::lane(t584, 0)), t610);
+    // mass matrix M_p of the platform
+    let t618 = neg_mul_add(P::splat(platform_rotation[2][2]), t613, t612);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t619 = mul_add(t518, P::splat(P::lane(t594, 1)), t614);
+    // inertia less external wrench that the actuators must balance
+    let t620 = neg_mul_add(P::splat(platform_acceleration[4]), t611, t615);
+    // force along the actuator that balances the remaining wrench
+    let t621 = mul_add(t483, P::splat(P::lane(t584, 2)), t617);
+    let t622 = neg_mul_add(t571, P::splat(P::lane(t501, 1)), t616);
+    let t623 = P::triple([P::lane(t607, 2), P::lane(t607, 0), P::lane(t607, 1)]);
+    let t624 = P::triple([P::lane(t608, 1), P::lane(t608, 2), P::lane(t608, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t625 = mul_add(t549, P::splat(P::lane(t594, 2)), t619);
+    // force along the actuator that balances the remaining wrench
+    let t626 = P::triple([P::lane(t607, 1), P::lane(t607, 2), P::lane(t607, 0)]);
+    let t627 = P::triple([P::lane(t608, 2), P::lane(t608, 0), P::lane(t608, 1)]);
+    let t628 = neg_mul_add(t595, P::splat(P::lane(t501, 2)), t622);
+    let t629 = mul_sub(t626, t627, t623 * t624);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t630 = P::triple([P::lane(t501, 0), P::lane(t502, 0), P::lane(t503, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t631 = t625 + neg_mul_add(P::splat(platform_acceleration[5]), t618, t620);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t632 = P::triple([P::lane(t501, 1), P::lane(t502, 1), P::lane(t503, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t633 = mul_add(P::splat(t546), t631, P::splat(P::lane(t621, 0)) * t630);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t634 = P::triple([P::lane(t501, 2), P::lane(t502, 2), P::lane(t503, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t635 = P::lane(t628, 1) * P::lane(t629, 1);
+    let t636 = P::triple([P::lane(t628, 1), P::lane(t628, 2), P::lane(t628, 0)]);
+    let t637 = mul_add(P::splat(P::lane(t621, 1)), t632, t633);
+    let t638 = P::triple([P::lane(t628, 2), P::lane(t628, 0), P::lane(t628, 1)]);
+    let t639 = P::mul_add(P::lane(t628, 0), P::lane(t629, 0), t635);
+    let t640 = mul_add(P::splat(P::lane(t621, 2)), t634, t637);
+    let t641 = P::triple([P::lane(t522, 0), P::lane(t571, 0), P::lane(t595, 0)]);
+    let t642 = mul_sub(t623, t636, t626 * t638);
+    let t643 = c(1.0) / P::mul_add(P::lane(t628, 2), P::lane(t629, 2), t639);
+    let t644 = P::triple([P::lane(t522, 1), P::lane(t571, 1), P::lane(t595, 1)]);
+    let t645 = mul_sub(t624, t638, t627 * t636) * P::splat(P::lane(t640, 1));
+    let t646 = mul_add(t629, P::splat(P::lane(t640, 0)), t645);
+    let t647 = P::triple([P::lane(t522, 2), P::lane(t571, 2), P::lane(t595, 2)]);
+    let t648 = P::splat(t643) * mul_add(t642, P::splat(P::lane(t640, 2)), t646);
+    // inertia less external wrench that the actuators must balance
+    let t649 = -P::lane(t631, 0);
+    let t650 = -P::lane(t631, 1);
+    // force along the actuator that balances the remaining wrench
+    let t651 = -t648;
+    let t652 = mul_add(t641, P::splat(P::lane(t648, 0)), t621);
+    // inertia less external wrench that the actuators must balance
+    let t653 = -P::lane(t631, 2);
+    // force along the actuator that balances the remaining wrench
+    let t654 = mul_add(t644, P::splat(P::lane(t648, 1)), t652);
+    let t655 = mul_add(t647, P::splat(P::lane(t648, 2)), t654);
+    let t656 = P::splat(c(1.0) / t546) * t655;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t651, t656],
         &[
-            [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t288, 0), P::lane(t288, 1), P::lane(t288, 2)],
-            [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t272, 0), P::lane(t272, 1), P::lane(t272, 2)],
-            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t289, 0), P::lane(t289, 1), P::lane(t289, 2)],
-            [P::lane(t455, 0), P::lane(t455, 1), P::lane(t455, 2), P::lane(t438, 0), P::lane(t438, 1), P::lane(t438, 2)],
-            [P::lane(t456, 0), P::lane(t456, 1), P::lane(t456, 2), P::lane(t439, 0), P::lane(t439, 1), P::lane(t439, 2)],
-            [P::lane(t457, 0), P::lane(t457, 1), P::lane(t457, 2), P::lane(t440, 0), P::lane(t440, 1), P::lane(t440, 2)],
+            [t254, t253],
+            [t266, t260],
+            [t267, t255],
+            [t484, t501],
+            [t485, t502],
+            [t486, t503],
         ],
-        &[P::lane(t592, 0), P::lane(t592, 1), P::lane(t592, 2), t593, t594, t595],
+        &[P::lane(t584, 0), P::lane(t584, 1), P::lane(t584, 2), t649, t650, t653],
+        &[1, 3, 5, 0, 2, 4],
     );
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t59, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t59, 1);
+    actuator_length[1] = P::lane(t60, 0);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t59, 2);
+    actuator_length[2] = P::lane(t59, 1);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t64, 0);
+    actuator_length[3] = P::lane(t60, 1);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t64, 1);
+    actuator_length[4] = P::lane(t59, 2);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t64, 2);
+    actuator_length[5] = P::lane(t60, 2);
     // leg 1: actuator velocity d'
-    actuator_velocity[0] = P::lane(t126, 0);
+    actuator_velocity[0] = P::lane(t132, 0);
     // leg 2: actuator velocity d'
-    actuator_velocity[1] = P::lane(t126, 1);
+    actuator_velocity[1] = P::lane(t133, 0);
     // leg 3: actuator velocity d'
-    actuator_velocity[2] = P::lane(t126, 2);
+    actuator_velocity[2] = P::lane(t132, 1);
     // leg 4: actuator velocity d'
-    actuator_velocity[3] = P::lane(t146, 0);
+    actuator_velocity[3] = P::lane(t133, 1);
     // leg 5: actuator velocity d'
-    actuator_velocity[4] = P::lane(t146, 1);
+    actuator_velocity[4] = P::lane(t132, 2);
     // leg 6: actuator velocity d'
-    actuator_velocity[5] = P::lane(t146, 2);
+    actuator_velocity[5] = P::lane(t133, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t241, 0);
-    jacobian_dp[0][1] = P::lane(t248, 0);
-    jacobian_dp[0][2] = P::lane(t243, 0);
+    jacobian_dp[0][0] = P::lane(t253, 0);
+    jacobian_dp[0][1] = P::lane(t260, 0);
+    jacobian_dp[0][2] = P::lane(t255, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t455, 0);
-    jacobian_dp[0][4] = P::lane(t456, 0);
-    jacobian_dp[0][5] = P::lane(t457, 0);
+    jacobian_dp[0][3] = P::lane(t501, 0);
+    jacobian_dp[0][4] = P::lane(t502, 0);
+    jacobian_dp[0][5] = P::lane(t503, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t241, 1);
-    jacobian_dp[1][1] = P::lane(t248, 1);
-    jacobian_dp[1][2] = P::lane(t243, 1);
+    jacobian_dp[1][0] = P::lane(t254, 0);
+    jacobian_dp[1][1] = P::lane(t266, 0);
+    jacobian_dp[1][2] = P::lane(t267, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t455, 1);
-    jacobian_dp[1][4] = P::lane(t456, 1);
-    jacobian_dp[1][5] = P::lane(t457, 1);
+    jacobian_dp[1][3] = P::lane(t484, 0);
+    jacobian_dp[1][4] = P::lane(t485, 0);
+    jacobian_dp[1][5] = P::lane(t486, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t241, 2);
-    jacobian_dp[2][1] = P::lane(t248, 2);
-    jacobian_dp[2][2] = P::lane(t243, 2);
+    jacobian_dp[2][0] = P::lane(t253, 1);
+    jacobian_dp[2][1] = P::lane(t260, 1);
+    jacobian_dp[2][2] = P::lane(t255, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t455, 2);
-    jacobian_dp[2][4] = P::lane(t456, 2);
-    jacobian_dp[2][5] = P::lane(t457, 2);
+    jacobian_dp[2][3] = P::lane(t501, 1);
+    jacobian_dp[2][4] = P::lane(t502, 1);
+    jacobian_dp[2][5] = P::lane(t503, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t288, 0);
-    jacobian_dp[3][1] = P::lane(t272, 0);
-    jacobian_dp[3][2] = P::lane(t289, 0);
+    jacobian_dp[3][0] = P::lane(t254, 1);
+    jacobian_dp[3][1] = P::lane(t266, 1);
+    jacobian_dp[3][2] = P::lane(t267, 1);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t438, 0);
-    jacobian_dp[3][4] = P::lane(t439, 0);
-    jacobian_dp[3][5] = P::lane(t440, 0);
+    jacobian_dp[3][3] = P::lane(t484, 1);
+    jacobian_dp[3][4] = P::lane(t485, 1);
+    jacobian_dp[3][5] = P::lane(t486, 1);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t288, 1);
-    jacobian_dp[4][1] = P::lane(t272, 1);
-    jacobian_dp[4][2] = P::lane(t289, 1);
+    jacobian_dp[4][0] = P::lane(t253, 2);
+    jacobian_dp[4][1] = P::lane(t260, 2);
+    jacobian_dp[4][2] = P::lane(t255, 2);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t438, 1);
-    jacobian_dp[4][4] = P::lane(t439, 1);
-    jacobian_dp[4][5] = P::lane(t440, 1);
+    jacobian_dp[4][3] = P::lane(t501, 2);
+    jacobian_dp[4][4] = P::lane(t502, 2);
+    jacobian_dp[4][5] = P::lane(t503, 2);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t288, 2);
-    jacobian_dp[5][1] = P::lane(t272, 2);
-    jacobian_dp[5][2] = P::lane(t289, 2);
+    jacobian_dp[5][0] = P::lane(t254, 2);
+    jacobian_dp[5][1] = P::lane(t266, 2);
+    jacobian_dp[5][2] = P::lane(t267, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t438, 2);
-    jacobian_dp[5][4] = P::lane(t439, 2);
-    jacobian_dp[5][5] = P::lane(t440, 2);
+    jacobian_dp[5][3] = P::lane(t484, 2);
+    jacobian_dp[5][4] = P::lane(t485, 2);
+    jacobian_dp[5][5] = P::lane(t486, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t526, 0);
+    mass_matrix_p[0][0] = P::lane(t446, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t422, 1);
-    mass_matrix_p[0][2] = P::lane(t422, 2);
-    mass_matrix_p[1][0] = P::lane(t422, 1);
+    mass_matrix_p[0][1] = P::lane(t373, 1);
+    mass_matrix_p[0][2] = P::lane(t373, 2);
+    mass_matrix_p[1][0] = P::lane(t373, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t501, 1);
+    mass_matrix_p[1][1] = P::lane(t426, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t474, 2);
-    mass_matrix_p[2][0] = P::lane(t422, 2);
-    mass_matrix_p[2][1] = P::lane(t474, 2);
+    mass_matrix_p[1][2] = P::lane(t406, 2);
+    mass_matrix_p[2][0] = P::lane(t373, 2);
+    mass_matrix_p[2][1] = P::lane(t406, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t555, 2);
-    mass_matrix_p[3][3] = P::lane(t558, 0);
-    mass_matrix_p[3][4] = P::lane(t558, 1);
-    mass_matrix_p[3][5] = P::lane(t558, 2);
-    mass_matrix_p[4][3] = P::lane(t558, 1);
-    mass_matrix_p[4][4] = P::lane(t570, 1);
-    mass_matrix_p[4][5] = P::lane(t570, 2);
-    mass_matrix_p[5][3] = P::lane(t558, 2);
-    mass_matrix_p[5][4] = P::lane(t570, 2);
-    mass_matrix_p[5][5] = P::lane(t579, 2);
+    mass_matrix_p[2][2] = P::lane(t470, 2);
+    mass_matrix_p[3][3] = P::lane(t599, 0);
+    mass_matrix_p[3][4] = P::lane(t599, 1);
+    mass_matrix_p[3][5] = P::lane(t599, 2);
+    mass_matrix_p[4][3] = P::lane(t599, 1);
+    mass_matrix_p[4][4] = P::lane(t611, 1);
+    mass_matrix_p[4][5] = P::lane(t611, 2);
+    mass_matrix_p[5][3] = P::lane(t599, 2);
+    mass_matrix_p[5][4] = P::lane(t611, 2);
+    mass_matrix_p[5][5] = P::lane(t618, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t589, 0);
-    total_bias[1] = P::lane(t589, 1);
-    total_bias[2] = P::lane(t589, 2);
-    total_bias[3] = -P::lane(t588, 0);
-    total_bias[4] = -P::lane(t588, 1);
-    total_bias[5] = -P::lane(t588, 2);
+    total_bias[0] = P::lane(t558, 0);
+    total_bias[1] = P::lane(t558, 1);
+    total_bias[2] = P::lane(t558, 2);
+    total_bias[3] = -P::lane(t625, 0);
+    total_bias[4] = -P::lane(t625, 1);
+    total_bias[5] = -P::lane(t625, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];
