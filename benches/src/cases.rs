@@ -4,7 +4,7 @@ use dyn_platform::Platform;
 use dyn_runtime::kernels::{
     CoriolisMatrices, ForwardDynamics, InverseDynamics, JacobianDp, MassMatrixP, Matrices,
 };
-use dyn_runtime::models::Uhp;
+use dyn_runtime::models::PreparedUhp;
 
 use crate::angles;
 use crate::call::{Call, Generated, Reference};
@@ -199,7 +199,7 @@ struct Cases<'a, V> {
     platform: &'a Platform,
     states: &'a States,
     visitor: &'a mut V,
-    model: Uhp,
+    model: PreparedUhp,
     parameters: dyn_reference::Parameters,
 }
 
@@ -210,7 +210,7 @@ impl<V: Visitor> Cases<'_, V> {
         function: &'static str,
         flat: impl Fn(&Flat<Baked>, &Inputs, &mut O),
         method: impl Fn(&Baked, &Inputs, &mut O),
-        runtime: impl Fn(&Uhp, &Inputs, &mut O),
+        runtime: impl Fn(&PreparedUhp, &Inputs, &mut O),
         reference: impl Fn(&dyn_reference::Parameters, &dyn_reference::State) -> R,
     ) {
         let case = |implementation| Case { function, implementation, variant: "" };

@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use super::EmitError;
 use super::names::{
-    CONSTANT, CONSTANT_IN_LANES, LANE, PARAMETERS, SCALARS_IN_LANES, SOLVE_AFTER_ATTEMPT,
+    CONSTANT, CONSTANT_IN_LANES, LANE, LOAD, PARAMETERS, SCALARS_IN_LANES, SOLVE_AFTER_ATTEMPT,
     SOLVE_AFTER_ATTEMPT_IN_LANES, SOLVE_GENERAL, SPLAT, SQRT, TRIPLE, identifier,
 };
 use super::placement::Place;
 use super::schedule::{Statement, Step, Value};
 use super::signature::Signature;
 use crate::graph::{Graph, Node, NodeId, Op, SolveKind, Symbol};
+use crate::pack::{PREPARED, row};
 
 /// Writes the values of one graph.
 pub struct Expressions<'a> {
@@ -177,6 +178,10 @@ impl<'a> Expressions<'a> {
                     text.push_str(operator);
                     self.write_operand(text, id, b, right)
                 })?;
+            }
+            Node::Lanes(lanes) if row(self.graph, lanes).is_some() => {
+                let row = row(self.graph, lanes).unwrap_or_default();
+                put(text, format_args!("{SCALARS_IN_LANES}::{LOAD}(&{PREPARED}[{row}])"));
             }
             Node::Lanes(lanes) => {
                 put(text, format_args!("{SCALARS_IN_LANES}::{TRIPLE}(["));

@@ -12,16 +12,20 @@
 //! | `superword` | finds three alike from their results back to their operands |
 //! | `attempts` | hands solutions in blocks and their systems on as they stand in lanes, for examination at run time |
 //! | `order` | puts operations in the order in which a processor can begin them |
+//! | `hoist` | takes out what follows from parameters at run time alone |
 //! | `unpack` | the same graph without lanes, for evaluation |
 
 mod attempts;
 mod blocks;
+mod hoist;
 mod order;
 mod partition;
 mod sums;
 mod superword;
 mod unpack;
 
+pub(crate) use hoist::row;
+pub use hoist::{Hoisted, PREPARED, hoist};
 pub use partition::Partition;
 pub use unpack::unpack;
 

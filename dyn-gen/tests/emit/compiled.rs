@@ -43,6 +43,7 @@ mod triple {
     pub trait Triple: Scalar {
         type Lane: Scalar;
         fn triple(lanes: [Self::Lane; 3]) -> Self;
+        fn load(lanes: &[Self::Lane; 4]) -> Self;
         fn splat(number: Self::Lane) -> Self;
         fn lane(self, lane: usize) -> Self::Lane;
         fn mul_add(a: Self::Lane, b: Self::Lane, c: Self::Lane) -> Self::Lane;
@@ -56,6 +57,13 @@ macro_rules! single_state {
     ($in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {
         self::$flat($($input,)* $($output),*);
     };
+    (
+        $in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*;
+        only in lanes $($extra:ident: $extra_type:ty),*; $($output:ident: $output_type:ty),*
+    ) => {{
+        let _ = $(&$extra)*;
+        self::$flat($($input,)* $($output),*);
+    }};
 }
 #[allow(unused_imports)]
 pub(crate) use single_state;

@@ -2612,6 +2612,1436 @@ impl<S> crate::kernels::generic::Energy for Uhp<S> {
     }
 }
 
+/// [`Uhp`] for many calls with the same parameters: what follows from them alone is
+/// computed already, for functions in lanes.
+///
+/// Its parameters stay as they are; others make another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreparedUhp {
+    model: Uhp,
+    matrices: [[f64; 4]; 76],
+    inverse_dynamics: [[f64; 4]; 38],
+    actuator_geometry: [[f64; 4]; 20],
+    control: [[f64; 4]; 46],
+    forward_dynamics: [[f64; 4]; 54],
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl Uhp {
+    /// The model with everything computed that follows from its parameters alone.
+    pub fn prepared(self) -> PreparedUhp {
+        let mut prepared = PreparedUhp {
+            model: self,
+            matrices: [[0.0; 4]; 76],
+            inverse_dynamics: [[0.0; 4]; 38],
+            actuator_geometry: [[0.0; 4]; 20],
+            control: [[0.0; 4]; 46],
+            forward_dynamics: [[0.0; 4]; 54],
+        };
+        self::prepare_matrices(&self.parameters, &mut prepared.matrices);
+        self::prepare_inverse_dynamics(&self.parameters, &mut prepared.inverse_dynamics);
+        self::prepare_actuator_geometry(
+            &self.parameters,
+            &mut prepared.actuator_geometry,
+        );
+        self::prepare_control(&self.parameters, &mut prepared.control);
+        self::prepare_forward_dynamics(&self.parameters, &mut prepared.forward_dynamics);
+        prepared
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl PreparedUhp {
+    /// The model as it was when this was made, with its parameters.
+    pub fn model(&self) -> &Uhp {
+        &self.model
+    }
+}
+
+impl crate::lanes::Generic for PreparedUhp {
+    type Parameters<T: Scalar> = Parameters<T>;
+}
+
+impl crate::lanes::InLanes<f64> for PreparedUhp {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = f64>>(
+        of_lane: impl Fn(usize) -> &'a Self,
+    ) -> Parameters<T> {
+        <Uhp as crate::lanes::InLanes<f64>>::in_lanes(|lane| &of_lane(lane).model)
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment for PreparedUhp {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+    ) {
+        crate::kernels::RodAlignment::rod_alignment(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::RodAlignment for PreparedUhp {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics for PreparedUhp {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        actuator_acceleration: &mut [f64; 6],
+        rod_direction: &mut [[f64; 3]; 6],
+        hooke_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::LegKinematics::leg_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::LegKinematics for PreparedUhp {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::BodyKinematics for PreparedUhp {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        payload_com_position: &mut [f64; 3],
+        payload_com_velocity: &mut [f64; 3],
+        payload_com_acceleration: &mut [f64; 3],
+        rod_angular_velocity: &mut [[f64; 3]; 6],
+        rod_angular_acceleration: &mut [[f64; 3]; 6],
+        rod_com_position: &mut [[f64; 3]; 6],
+        rod_com_velocity: &mut [[f64; 3]; 6],
+        rod_com_acceleration: &mut [[f64; 3]; 6],
+        mover_position: &mut [[f64; 3]; 6],
+        mover_velocity: &mut [[f64; 3]; 6],
+        mover_acceleration: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::uhp::BodyKinematics::body_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::BodyKinematics for PreparedUhp {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        rod_angular_velocity: &mut [[T; 3]; 6],
+        rod_angular_acceleration: &mut [[T; 3]; 6],
+        rod_com_position: &mut [[T; 3]; 6],
+        rod_com_velocity: &mut [[T; 3]; 6],
+        rod_com_acceleration: &mut [[T; 3]; 6],
+        mover_position: &mut [[T; 3]; 6],
+        mover_velocity: &mut [[T; 3]; 6],
+        mover_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::PartialVelocities for PreparedUhp {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        payload_partial_velocity: &mut [[f64; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f64; 6]; 3],
+        rod_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+    ) {
+        crate::kernels::uhp::PartialVelocities::partial_velocities(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::PartialVelocities for PreparedUhp {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::GeneralisedForces for PreparedUhp {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        payload_active_force: &mut [f64; 6],
+        payload_inertia_force: &mut [f64; 6],
+        rod_active_force: &mut [[f64; 6]; 6],
+        rod_inertia_force: &mut [[f64; 6]; 6],
+        mover_active_force: &mut [[f64; 6]; 6],
+        mover_inertia_force: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::uhp::GeneralisedForces::generalised_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::GeneralisedForces for PreparedUhp {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        rod_active_force: &mut [[T; 6]; 6],
+        rod_inertia_force: &mut [[T; 6]; 6],
+        mover_active_force: &mut [[T; 6]; 6],
+        mover_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp for PreparedUhp {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDp::jacobian_dp(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDp for PreparedUhp {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb for PreparedUhp {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDb::jacobian_db(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDb for PreparedUhp {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP for PreparedUhp {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixP::mass_matrix_p(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixP for PreparedUhp {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB for PreparedUhp {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixB::mass_matrix_b(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixB for PreparedUhp {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices for PreparedUhp {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::CoriolisMatrices::coriolis_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::CoriolisMatrices for PreparedUhp {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices for PreparedUhp {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::StiffnessMatrices::stiffness_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::StiffnessMatrices for PreparedUhp {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices for PreparedUhp {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.matrices;
+        crate::single_state!(
+            matrices_prepared_in_lanes, matrices; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; only in lanes prepared : [[f64; 4]; 76];
+            mass_matrix_p : [[f64; 6]; 6], coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp
+            : [[f64; 6]; 6], mass_matrix_b : [[f64; 6]; 6], coriolis_matrix_b : [[f64;
+            6]; 6], jacobian_db : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Matrices for PreparedUhp {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces for PreparedUhp {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveForces::passive_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveForces for PreparedUhp {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias for PreparedUhp {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::Bias::bias(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Bias for PreparedUhp {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion for PreparedUhp {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::EquationOfMotion::equation_of_motion(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::EquationOfMotion for PreparedUhp {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics for PreparedUhp {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.inverse_dynamics;
+        crate::single_state!(
+            inverse_dynamics_prepared_in_lanes, inverse_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 38]; inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::InverseDynamics for PreparedUhp {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for PreparedUhp {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.actuator_geometry;
+        crate::single_state!(
+            actuator_geometry_prepared_in_lanes, actuator_geometry; parameters :
+            Parameters < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3]; only in
+            lanes prepared : [[f64; 4]; 20]; rod_alignment : [f64; 6], actuator_length :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ActuatorGeometry for PreparedUhp {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for PreparedUhp {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.control;
+        crate::single_state!(
+            control_prepared_in_lanes, control; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 46]; actuator_length : [f64; 6], actuator_velocity :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Control for PreparedUhp {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for PreparedUhp {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveInverseDynamics for PreparedUhp {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for PreparedUhp {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        crate::kernels::BaseReaction::base_reaction(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::BaseReaction for PreparedUhp {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics for PreparedUhp {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        forward_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.forward_dynamics;
+        crate::single_state!(
+            forward_dynamics_prepared_in_lanes, forward_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; only in lanes prepared
+            : [[f64; 4]; 54]; forward_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ForwardDynamics for PreparedUhp {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy for PreparedUhp {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        kinetic_energy: &mut f64,
+        potential_energy: &mut f64,
+    ) {
+        crate::kernels::Energy::energy(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Energy for PreparedUhp {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -36286,4 +37716,7328 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     forward_dynamics[3] = -P::lane(t631, 0);
     forward_dynamics[4] = -P::lane(t631, 1);
     forward_dynamics[5] = -P::lane(t631, 2);
+}
+
+/// What follows from the parameters alone, for \`matrices\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 76x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 76],
+) {
+    let c = T::constant;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[3] / t1;
+    let t8 = parameters.rod_inertia[4] / t2;
+    let t9 = parameters.rod_inertia[5] / t3;
+    let t10 = c(1.0) - parameters.rod_com_fraction[3];
+    let t11 = c(1.0) - parameters.rod_com_fraction[4];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[3] * t10, t7);
+    let t14 = mul_add(t11, parameters.rod_mass[4] * t11, t8);
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t4;
+    let t17 = parameters.rod_inertia[1] / t5;
+    let t18 = parameters.rod_inertia[2] / t6;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[1];
+    let t21 = c(1.0) - parameters.rod_com_fraction[2];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    let t23 = mul_add(t20, parameters.rod_mass[1] * t20, t17);
+    let t24 = mul_add(t21, parameters.rod_mass[2] * t21, t18);
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t26 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[3], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[4], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t33 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[1], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[2], t33, t18);
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t37 = neg_mul_add(t10, t25, t7);
+    prepared[20][0] = t37;
+    let t38 = neg_mul_add(t11, t26, t8);
+    prepared[20][1] = t38;
+    let t39 = neg_mul_add(t12, t27, t9);
+    prepared[20][2] = t39;
+    prepared[20][3] = t39;
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t40 = neg_mul_add(t19, t31, t16);
+    prepared[21][0] = t40;
+    let t41 = neg_mul_add(t20, t32, t17);
+    prepared[21][1] = t41;
+    let t42 = neg_mul_add(t21, t33, t18);
+    prepared[21][2] = t42;
+    prepared[21][3] = t42;
+    // second moment of payload and platform-side leg ends
+    let t43 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t44 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t45 = t44 + parameters.payload_inertia[2][2];
+    prepared[74][0] = t45;
+    let t46 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t47 = parameters.platform_point[5][0] * parameters.platform_point[5][0] * t30;
+    let t48 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t49 = parameters.platform_point[3][0] * parameters.platform_point[3][0] * t28;
+    let t50 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t51 = parameters.platform_point[4][0] * parameters.platform_point[4][0] * t29;
+    let t52 = mul_add(t34, t48, t49) + mul_add(t35, t50, t51);
+    let t53 = mul_add(t45, c(0.5), mul_add(t36, t46, t47) + t52);
+    let t54 = t53 - parameters.payload_inertia[0][0];
+    let t55 = mul_add(t43, parameters.payload_mass, t54);
+    prepared[61][0] = t55;
+    let t56 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t57 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t58 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t59 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t60 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t61 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t62 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+    let t63 = mul_add(t34, t59, t60) + mul_add(t35, t61, t62);
+    let t64 = mul_add(t45, c(0.5), mul_add(t36, t57, t58) + t63);
+    let t65 = t64 - parameters.payload_inertia[1][1];
+    let t66 = mul_add(t56, parameters.payload_mass, t65);
+    prepared[61][1] = t66;
+    let t67 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t68 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t69 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t70 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t71 = t28 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t72 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t73 = t29 * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+    let t74 = mul_add(t34, t70, t71) + mul_add(t35, t72, t73);
+    let t75 = mul_add(t45, c(0.5), mul_add(t36, t68, t69) + t74);
+    let t76 = t75 - parameters.payload_inertia[2][2];
+    let t77 = mul_add(t67, parameters.payload_mass, t76);
+    prepared[61][2] = t77;
+    prepared[61][3] = t77;
+    let t78 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t79 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t80 = parameters.platform_point[5][1] * parameters.platform_point[5][0] * t30;
+    let t81 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t82 = parameters.platform_point[3][1] * parameters.platform_point[3][0] * t28;
+    let t83 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t84 = parameters.platform_point[4][1] * parameters.platform_point[4][0] * t29;
+    let t85 = mul_add(t34, t81, t82) + mul_add(t35, t83, t84);
+    let t86 = mul_add(t36, t79, t80) + t85;
+    let t87 = mul_add(t78, parameters.payload_mass, t86);
+    prepared[68][0] = t87 - parameters.payload_inertia[0][1];
+    let t88 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t89 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t90 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t91 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t92 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t93 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t94 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+    let t95 = mul_add(t34, t91, t92) + mul_add(t35, t93, t94);
+    let t96 = mul_add(t36, t89, t90) + t95;
+    let t97 = mul_add(t88, parameters.payload_mass, t96);
+    prepared[68][1] = t97 - parameters.payload_inertia[1][2];
+    let t98 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t99 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t100 = parameters.platform_point[5][0] * parameters.platform_point[5][2] * t30;
+    let t101 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t102 = parameters.platform_point[3][0] * parameters.platform_point[3][2] * t28;
+    let t103 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t104 = parameters.platform_point[4][0] * parameters.platform_point[4][2] * t29;
+    let t105 = mul_add(t34, t101, t102) + mul_add(t35, t103, t104);
+    let t106 = mul_add(t36, t99, t100) + t105;
+    let t107 = mul_add(t98, parameters.payload_mass, t106);
+    let t108 = t107 - parameters.payload_inertia[0][2];
+    prepared[68][2] = t108;
+    prepared[68][3] = t108;
+    // their moment by platform joint and Hooke joint
+    let t109 = parameters.platform_point[3][1] * t37;
+    prepared[22][0] = t109;
+    let t110 = parameters.platform_point[4][1] * t38;
+    prepared[22][1] = t110;
+    let t111 = parameters.platform_point[5][1] * t39;
+    prepared[22][2] = t111;
+    prepared[22][3] = t111;
+    let t112 = parameters.platform_point[3][0] * t37;
+    prepared[23][0] = t112;
+    let t113 = parameters.platform_point[4][0] * t38;
+    prepared[23][1] = t113;
+    let t114 = parameters.platform_point[5][0] * t39;
+    prepared[23][2] = t114;
+    prepared[23][3] = t114;
+    let t115 = parameters.platform_point[0][1] * t40;
+    prepared[24][0] = t115;
+    let t116 = parameters.platform_point[1][1] * t41;
+    prepared[24][1] = t116;
+    let t117 = parameters.platform_point[2][1] * t42;
+    prepared[24][2] = t117;
+    prepared[24][3] = t117;
+    let t118 = parameters.platform_point[0][0] * t40;
+    prepared[25][0] = t118;
+    let t119 = parameters.platform_point[1][0] * t41;
+    prepared[25][1] = t119;
+    let t120 = parameters.platform_point[2][0] * t42;
+    prepared[25][2] = t120;
+    prepared[25][3] = t120;
+    let t121 = parameters.platform_point[3][2] * t37;
+    prepared[26][0] = t121;
+    let t122 = parameters.platform_point[4][2] * t38;
+    prepared[26][1] = t122;
+    let t123 = parameters.platform_point[5][2] * t39;
+    prepared[26][2] = t123;
+    prepared[26][3] = t123;
+    let t124 = parameters.platform_point[0][2] * t40;
+    prepared[29][0] = t124;
+    let t125 = parameters.platform_point[1][2] * t41;
+    prepared[29][1] = t125;
+    let t126 = parameters.platform_point[2][2] * t42;
+    prepared[29][2] = t126;
+    prepared[29][3] = t126;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t127 = t13 + parameters.mover_mass[3];
+    prepared[27][0] = t127;
+    let t128 = t14 + parameters.mover_mass[4];
+    prepared[27][1] = t128;
+    let t129 = t15 + parameters.mover_mass[5];
+    prepared[27][2] = t129;
+    prepared[27][3] = t129;
+    // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+    prepared[28][0] = parameters.mover_mass[3] * parameters.mover_offset[3];
+    prepared[28][1] = parameters.mover_mass[4] * parameters.mover_offset[4];
+    let t130 = parameters.mover_mass[5] * parameters.mover_offset[5];
+    prepared[28][2] = t130;
+    prepared[28][3] = t130;
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t131 = t22 + parameters.mover_mass[0];
+    prepared[30][0] = t131;
+    let t132 = t23 + parameters.mover_mass[1];
+    prepared[30][1] = t132;
+    let t133 = t24 + parameters.mover_mass[2];
+    prepared[30][2] = t133;
+    prepared[30][3] = t133;
+    // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+    prepared[31][0] = parameters.mover_mass[0] * parameters.mover_offset[0];
+    prepared[31][1] = parameters.mover_mass[1] * parameters.mover_offset[1];
+    let t134 = parameters.mover_mass[2] * parameters.mover_offset[2];
+    prepared[31][2] = t134;
+    prepared[31][3] = t134;
+    // Coriolis matrix C_b, natural factorisation
+    prepared[32][0] = parameters.actuator_axis[3][1] * t109;
+    prepared[32][1] = parameters.actuator_axis[4][1] * t110;
+    let t135 = parameters.actuator_axis[5][1] * t111;
+    prepared[32][2] = t135;
+    prepared[32][3] = t135;
+    prepared[33][0] = parameters.actuator_axis[3][0] * t109;
+    prepared[33][1] = parameters.actuator_axis[4][0] * t110;
+    let t136 = parameters.actuator_axis[5][0] * t111;
+    prepared[33][2] = t136;
+    prepared[33][3] = t136;
+    prepared[34][0] = parameters.actuator_axis[3][1] * t112;
+    prepared[34][1] = parameters.actuator_axis[4][1] * t113;
+    let t137 = parameters.actuator_axis[5][1] * t114;
+    prepared[34][2] = t137;
+    prepared[34][3] = t137;
+    prepared[35][0] = parameters.actuator_axis[0][1] * t115;
+    prepared[35][1] = parameters.actuator_axis[1][1] * t116;
+    let t138 = parameters.actuator_axis[2][1] * t117;
+    prepared[35][2] = t138;
+    prepared[35][3] = t138;
+    prepared[36][0] = parameters.actuator_axis[3][2] * t109;
+    prepared[36][1] = parameters.actuator_axis[4][2] * t110;
+    let t139 = parameters.actuator_axis[5][2] * t111;
+    prepared[36][2] = t139;
+    prepared[36][3] = t139;
+    prepared[38][0] = parameters.actuator_axis[3][0] * t112;
+    prepared[38][1] = parameters.actuator_axis[4][0] * t113;
+    let t140 = parameters.actuator_axis[5][0] * t114;
+    prepared[38][2] = t140;
+    prepared[38][3] = t140;
+    prepared[39][0] = parameters.actuator_axis[0][0] * t115;
+    prepared[39][1] = parameters.actuator_axis[1][0] * t116;
+    let t141 = parameters.actuator_axis[2][0] * t117;
+    prepared[39][2] = t141;
+    prepared[39][3] = t141;
+    prepared[40][0] = parameters.actuator_axis[0][1] * t118;
+    prepared[40][1] = parameters.actuator_axis[1][1] * t119;
+    let t142 = parameters.actuator_axis[2][1] * t120;
+    prepared[40][2] = t142;
+    prepared[40][3] = t142;
+    prepared[41][0] = parameters.actuator_axis[3][2] * t112;
+    prepared[41][1] = parameters.actuator_axis[4][2] * t113;
+    let t143 = parameters.actuator_axis[5][2] * t114;
+    prepared[41][2] = t143;
+    prepared[41][3] = t143;
+    prepared[42][0] = parameters.actuator_axis[0][2] * t115;
+    prepared[42][1] = parameters.actuator_axis[1][2] * t116;
+    let t144 = parameters.actuator_axis[2][2] * t117;
+    prepared[42][2] = t144;
+    prepared[42][3] = t144;
+    prepared[45][0] = parameters.actuator_axis[3][1] * t121;
+    prepared[45][1] = parameters.actuator_axis[4][1] * t122;
+    let t145 = parameters.actuator_axis[5][1] * t123;
+    prepared[45][2] = t145;
+    prepared[45][3] = t145;
+    prepared[46][0] = parameters.actuator_axis[0][0] * t118;
+    prepared[46][1] = parameters.actuator_axis[1][0] * t119;
+    let t146 = parameters.actuator_axis[2][0] * t120;
+    prepared[46][2] = t146;
+    prepared[46][3] = t146;
+    prepared[47][0] = parameters.actuator_axis[0][2] * t118;
+    prepared[47][1] = parameters.actuator_axis[1][2] * t119;
+    let t147 = parameters.actuator_axis[2][2] * t120;
+    prepared[47][2] = t147;
+    prepared[47][3] = t147;
+    prepared[49][0] = parameters.actuator_axis[3][0] * t121;
+    prepared[49][1] = parameters.actuator_axis[4][0] * t122;
+    let t148 = parameters.actuator_axis[5][0] * t123;
+    prepared[49][2] = t148;
+    prepared[49][3] = t148;
+    prepared[50][0] = parameters.actuator_axis[0][1] * t124;
+    prepared[50][1] = parameters.actuator_axis[1][1] * t125;
+    let t149 = parameters.actuator_axis[2][1] * t126;
+    prepared[50][2] = t149;
+    prepared[50][3] = t149;
+    prepared[51][0] = parameters.actuator_axis[3][2] * t121;
+    prepared[51][1] = parameters.actuator_axis[4][2] * t122;
+    let t150 = parameters.actuator_axis[5][2] * t123;
+    prepared[51][2] = t150;
+    prepared[51][3] = t150;
+    prepared[53][0] = parameters.actuator_axis[0][0] * t124;
+    prepared[53][1] = parameters.actuator_axis[1][0] * t125;
+    let t151 = parameters.actuator_axis[2][0] * t126;
+    prepared[53][2] = t151;
+    prepared[53][3] = t151;
+    prepared[54][0] = parameters.actuator_axis[0][2] * t124;
+    prepared[54][1] = parameters.actuator_axis[1][2] * t125;
+    let t152 = parameters.actuator_axis[2][2] * t126;
+    prepared[54][2] = t152;
+    prepared[54][3] = t152;
+    // part of the legs' mass matrix on the side of the axes
+    prepared[37][0] = parameters.actuator_axis[3][1] * t37;
+    prepared[37][1] = parameters.actuator_axis[4][1] * t38;
+    let t153 = parameters.actuator_axis[5][1] * t39;
+    prepared[37][2] = t153;
+    prepared[37][3] = t153;
+    prepared[43][0] = parameters.actuator_axis[3][0] * t37;
+    prepared[43][1] = parameters.actuator_axis[4][0] * t38;
+    let t154 = parameters.actuator_axis[5][0] * t39;
+    prepared[43][2] = t154;
+    prepared[43][3] = t154;
+    prepared[44][0] = parameters.actuator_axis[0][1] * t40;
+    prepared[44][1] = parameters.actuator_axis[1][1] * t41;
+    let t155 = parameters.actuator_axis[2][1] * t42;
+    prepared[44][2] = t155;
+    prepared[44][3] = t155;
+    prepared[48][0] = parameters.actuator_axis[0][0] * t40;
+    prepared[48][1] = parameters.actuator_axis[1][0] * t41;
+    let t156 = parameters.actuator_axis[2][0] * t42;
+    prepared[48][2] = t156;
+    prepared[48][3] = t156;
+    prepared[52][0] = parameters.actuator_axis[3][2] * t37;
+    prepared[52][1] = parameters.actuator_axis[4][2] * t38;
+    let t157 = parameters.actuator_axis[5][2] * t39;
+    prepared[52][2] = t157;
+    prepared[52][3] = t157;
+    prepared[55][0] = parameters.actuator_axis[0][2] * t40;
+    prepared[55][1] = parameters.actuator_axis[1][2] * t41;
+    let t158 = parameters.actuator_axis[2][2] * t42;
+    prepared[55][2] = t158;
+    prepared[55][3] = t158;
+    // mass matrix M_b that couples the base acceleration
+    let t159 = parameters.actuator_axis[3][2] * t127;
+    prepared[56][0] = t159;
+    let t160 = parameters.actuator_axis[4][2] * t128;
+    prepared[56][1] = t160;
+    let t161 = parameters.actuator_axis[5][2] * t129;
+    prepared[56][2] = t161;
+    prepared[56][3] = t161;
+    let t162 = parameters.actuator_axis[3][1] * t127;
+    prepared[57][0] = t162;
+    let t163 = parameters.actuator_axis[4][1] * t128;
+    prepared[57][1] = t163;
+    let t164 = parameters.actuator_axis[5][1] * t129;
+    prepared[57][2] = t164;
+    prepared[57][3] = t164;
+    let t165 = parameters.actuator_axis[3][0] * t127;
+    prepared[58][0] = t165;
+    let t166 = parameters.actuator_axis[4][0] * t128;
+    prepared[58][1] = t166;
+    let t167 = parameters.actuator_axis[5][0] * t129;
+    prepared[58][2] = t167;
+    prepared[58][3] = t167;
+    let t168 = parameters.actuator_axis[0][2] * t131;
+    prepared[59][0] = t168;
+    let t169 = parameters.actuator_axis[1][2] * t132;
+    prepared[59][1] = t169;
+    let t170 = parameters.actuator_axis[2][2] * t133;
+    prepared[59][2] = t170;
+    prepared[59][3] = t170;
+    let t171 = parameters.actuator_axis[0][1] * t131;
+    prepared[60][0] = t171;
+    let t172 = parameters.actuator_axis[1][1] * t132;
+    prepared[60][1] = t172;
+    let t173 = parameters.actuator_axis[2][1] * t133;
+    prepared[60][2] = t173;
+    prepared[60][3] = t173;
+    let t174 = parameters.actuator_axis[0][0] * t131;
+    prepared[62][0] = t174;
+    let t175 = parameters.actuator_axis[1][0] * t132;
+    prepared[62][1] = t175;
+    let t176 = parameters.actuator_axis[2][0] * t133;
+    prepared[62][2] = t176;
+    prepared[62][3] = t176;
+    let t177 = parameters.base_point[3][0] * t159;
+    prepared[63][0] = mul_sub(parameters.base_point[3][2], t165, t177);
+    let t178 = parameters.base_point[4][0] * t160;
+    prepared[63][1] = mul_sub(parameters.base_point[4][2], t166, t178);
+    let t179 = parameters.base_point[5][0] * t161;
+    let t180 = mul_sub(parameters.base_point[5][2], t167, t179);
+    prepared[63][2] = t180;
+    prepared[63][3] = t180;
+    let t181 = parameters.base_point[3][2] * t162;
+    prepared[64][0] = mul_sub(parameters.base_point[3][1], t159, t181);
+    let t182 = parameters.base_point[4][2] * t163;
+    prepared[64][1] = mul_sub(parameters.base_point[4][1], t160, t182);
+    let t183 = parameters.base_point[5][2] * t164;
+    let t184 = mul_sub(parameters.base_point[5][1], t161, t183);
+    prepared[64][2] = t184;
+    prepared[64][3] = t184;
+    let t185 = parameters.base_point[0][0] * t168;
+    prepared[65][0] = mul_sub(parameters.base_point[0][2], t174, t185);
+    let t186 = parameters.base_point[1][0] * t169;
+    prepared[65][1] = mul_sub(parameters.base_point[1][2], t175, t186);
+    let t187 = parameters.base_point[2][0] * t170;
+    let t188 = mul_sub(parameters.base_point[2][2], t176, t187);
+    prepared[65][2] = t188;
+    prepared[65][3] = t188;
+    let t189 = parameters.base_point[0][2] * t171;
+    prepared[66][0] = mul_sub(parameters.base_point[0][1], t168, t189);
+    let t190 = parameters.base_point[1][2] * t172;
+    prepared[66][1] = mul_sub(parameters.base_point[1][1], t169, t190);
+    let t191 = parameters.base_point[2][2] * t173;
+    let t192 = mul_sub(parameters.base_point[2][1], t170, t191);
+    prepared[66][2] = t192;
+    prepared[66][3] = t192;
+    let t193 = parameters.base_point[3][1] * t165;
+    prepared[67][0] = mul_sub(parameters.base_point[3][0], t162, t193);
+    let t194 = parameters.base_point[4][1] * t166;
+    prepared[67][1] = mul_sub(parameters.base_point[4][0], t163, t194);
+    let t195 = parameters.base_point[5][1] * t167;
+    let t196 = mul_sub(parameters.base_point[5][0], t164, t195);
+    prepared[67][2] = t196;
+    prepared[67][3] = t196;
+    let t197 = parameters.base_point[0][1] * t174;
+    prepared[69][0] = mul_sub(parameters.base_point[0][0], t171, t197);
+    let t198 = parameters.base_point[1][1] * t175;
+    prepared[69][1] = mul_sub(parameters.base_point[1][0], t172, t198);
+    let t199 = parameters.base_point[2][1] * t176;
+    let t200 = mul_sub(parameters.base_point[2][0], t173, t199);
+    prepared[69][2] = t200;
+    prepared[69][3] = t200;
+    let t201 = mul_add(parameters.platform_point[1][1], t41, t110);
+    let t202 = mul_add(parameters.platform_point[0][1], t40, t109) + t201;
+    prepared[74][1] = mul_add(parameters.platform_point[2][1], t42, t111) + t202;
+    let t203 = mul_add(parameters.platform_point[1][0], t41, t113);
+    let t204 = mul_add(parameters.platform_point[0][0], t40, t112) + t203;
+    prepared[74][2] = mul_add(parameters.platform_point[2][0], t42, t114) + t204;
+    let t205 = mul_add(parameters.platform_point[1][2], t41, t122);
+    let t206 = mul_add(parameters.platform_point[0][2], t40, t121) + t205;
+    prepared[74][3] = mul_add(parameters.platform_point[2][2], t42, t123) + t206;
+    prepared[75][2] = -(t37 + t40 + (t38 + t41));
+    // first moment of payload and platform-side leg ends
+    let t207 = parameters.platform_point[5][0] * t30;
+    let t208 = parameters.platform_point[3][0] * t28;
+    let t209 = parameters.platform_point[4][0] * t29;
+    let t210 = mul_add(parameters.platform_point[1][0], t35, t209);
+    let t211 = mul_add(parameters.platform_point[0][0], t34, t208) + t210;
+    let t212 = mul_add(parameters.platform_point[2][0], t36, t207) + t211;
+    prepared[70][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t212);
+    let t213 = parameters.platform_point[5][1] * t30;
+    let t214 = parameters.platform_point[3][1] * t28;
+    let t215 = parameters.platform_point[4][1] * t29;
+    let t216 = mul_add(parameters.platform_point[1][1], t35, t215);
+    let t217 = mul_add(parameters.platform_point[0][1], t34, t214) + t216;
+    let t218 = mul_add(parameters.platform_point[2][1], t36, t213) + t217;
+    prepared[70][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t218);
+    let t219 = parameters.platform_point[5][2] * t30;
+    let t220 = parameters.platform_point[3][2] * t28;
+    let t221 = parameters.platform_point[4][2] * t29;
+    let t222 = mul_add(parameters.platform_point[1][2], t35, t221);
+    let t223 = mul_add(parameters.platform_point[0][2], t34, t220) + t222;
+    let t224 = mul_add(parameters.platform_point[2][2], t36, t219) + t223;
+    let t225 = mul_add(parameters.payload_com[2], parameters.payload_mass, t224);
+    prepared[70][2] = t225;
+    prepared[70][3] = t225;
+    // mass of payload and platform-side leg ends
+    let t226 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    let t227 = parameters.payload_mass + t226;
+    prepared[71][1] = t227;
+    prepared[72][2] = t227;
+    prepared[72][3] = t227;
+    prepared[73][0] = t227;
+    // leg 3: rod's inertial coupling between its ends
+    prepared[75][0] = -t42;
+    // leg 6: rod's inertial coupling between its ends
+    prepared[75][1] = -t39;
+    // mass matrix M_p of the platform
+    prepared[75][3] = t77 + (t55 + t66);
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[3][1];
+    prepared[0][1] = parameters.platform_point[4][1];
+    prepared[0][2] = parameters.platform_point[5][1];
+    prepared[0][3] = parameters.platform_point[5][1];
+    prepared[1][0] = parameters.platform_point[0][1];
+    prepared[1][1] = parameters.platform_point[1][1];
+    prepared[1][2] = parameters.platform_point[2][1];
+    prepared[1][3] = parameters.platform_point[2][1];
+    prepared[2][0] = parameters.platform_point[3][0];
+    prepared[2][1] = parameters.platform_point[4][0];
+    prepared[2][2] = parameters.platform_point[5][0];
+    prepared[2][3] = parameters.platform_point[5][0];
+    prepared[3][0] = parameters.platform_point[0][0];
+    prepared[3][1] = parameters.platform_point[1][0];
+    prepared[3][2] = parameters.platform_point[2][0];
+    prepared[3][3] = parameters.platform_point[2][0];
+    prepared[4][0] = parameters.platform_point[3][2];
+    prepared[4][1] = parameters.platform_point[4][2];
+    prepared[4][2] = parameters.platform_point[5][2];
+    prepared[4][3] = parameters.platform_point[5][2];
+    prepared[5][0] = parameters.platform_point[0][2];
+    prepared[5][1] = parameters.platform_point[1][2];
+    prepared[5][2] = parameters.platform_point[2][2];
+    prepared[5][3] = parameters.platform_point[2][2];
+    prepared[6][0] = parameters.base_point[3][1];
+    prepared[6][1] = parameters.base_point[4][1];
+    prepared[6][2] = parameters.base_point[5][1];
+    prepared[6][3] = parameters.base_point[5][1];
+    prepared[7][0] = parameters.base_point[3][0];
+    prepared[7][1] = parameters.base_point[4][0];
+    prepared[7][2] = parameters.base_point[5][0];
+    prepared[7][3] = parameters.base_point[5][0];
+    prepared[8][0] = parameters.base_point[0][1];
+    prepared[8][1] = parameters.base_point[1][1];
+    prepared[8][2] = parameters.base_point[2][1];
+    prepared[8][3] = parameters.base_point[2][1];
+    prepared[9][0] = parameters.actuator_axis[3][1];
+    prepared[9][1] = parameters.actuator_axis[4][1];
+    prepared[9][2] = parameters.actuator_axis[5][1];
+    prepared[9][3] = parameters.actuator_axis[5][1];
+    prepared[10][0] = parameters.base_point[0][0];
+    prepared[10][1] = parameters.base_point[1][0];
+    prepared[10][2] = parameters.base_point[2][0];
+    prepared[10][3] = parameters.base_point[2][0];
+    prepared[11][0] = parameters.actuator_axis[0][1];
+    prepared[11][1] = parameters.actuator_axis[1][1];
+    prepared[11][2] = parameters.actuator_axis[2][1];
+    prepared[11][3] = parameters.actuator_axis[2][1];
+    prepared[12][0] = parameters.actuator_axis[3][0];
+    prepared[12][1] = parameters.actuator_axis[4][0];
+    prepared[12][2] = parameters.actuator_axis[5][0];
+    prepared[12][3] = parameters.actuator_axis[5][0];
+    prepared[13][0] = parameters.base_point[3][2];
+    prepared[13][1] = parameters.base_point[4][2];
+    prepared[13][2] = parameters.base_point[5][2];
+    prepared[13][3] = parameters.base_point[5][2];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[1][0];
+    prepared[14][2] = parameters.actuator_axis[2][0];
+    prepared[14][3] = parameters.actuator_axis[2][0];
+    prepared[15][0] = parameters.base_point[0][2];
+    prepared[15][1] = parameters.base_point[1][2];
+    prepared[15][2] = parameters.base_point[2][2];
+    prepared[15][3] = parameters.base_point[2][2];
+    prepared[16][0] = parameters.actuator_axis[3][2];
+    prepared[16][1] = parameters.actuator_axis[4][2];
+    prepared[16][2] = parameters.actuator_axis[5][2];
+    prepared[16][3] = parameters.actuator_axis[5][2];
+    prepared[17][0] = parameters.actuator_axis[0][2];
+    prepared[17][1] = parameters.actuator_axis[1][2];
+    prepared[17][2] = parameters.actuator_axis[2][2];
+    prepared[17][3] = parameters.actuator_axis[2][2];
+    prepared[71][0] = c(0.0);
+    prepared[71][2] = c(0.0);
+    prepared[71][3] = c(0.0);
+    prepared[72][0] = c(0.0);
+    prepared[72][1] = c(0.0);
+    prepared[73][1] = c(0.0);
+    prepared[73][2] = c(0.0);
+    prepared[73][3] = c(0.0);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `prepared`: 76x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 76],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t7, t8, t13, t68, t69, t74, t181, t182, t183, t184, t203, t204, t205, t206, t207, t208,
+        t229, t230, t273, t274, t275, t306, t307, t308, t421, t422, t445, t451, t479, t480, t483,
+        t541, t544, t546, t625, t626, t627, t648, t651, t663, t666, t689, t690, t691, t692, t715,
+        t750, t754, t755, t769, t775, t776, t777, t788, t789, t790, t791, t792, t793, t794, t800,
+        t801, t802, t803, t804, t805, t806, t807, t808, t809, t810, t811, t815, t816, t817, t818,
+        t819, t820, t821, t823, t825, t826, t827, t828, t829, t838, t839, t840, t845, t846, t847,
+        t848, t849, t850, t851, t856, t860, t862, t863, t864, t865, t866, t873, t874, t875, t878,
+        t879, t880, t881, t882, t889, t891, t900, t901, t902, t906, t907, t908, t909, t910, t911,
+        t914, t915, t916, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928, t929,
+        t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t943, t944,
+        t945, t949, t950, t951, t952, t953, t954, t955, t956, t957, t958, t959, t960, t961, t962,
+        t963, t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977,
+        t978, t979, t980, t981, t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992,
+        t993, t994, t995, t996, t997,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 = P::load(&prepared[0]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 = P::load(&prepared[1]);
+        let t15 = P::load(&prepared[2]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 = P::load(&prepared[3]);
+        let t21 = P::load(&prepared[4]);
+        let t22 = P::load(&prepared[5]);
+        let t23 = P::load(&prepared[6]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t27 = t14 * P::splat(P::lane(t16, 1));
+        let t28 = t14 * P::splat(P::lane(t16, 0));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t29 = mul_add(t15, P::splat(P::lane(t17, 0)), t25);
+        let t30 = t11 * P::splat(P::lane(t16, 2));
+        let t31 = mul_add(t15, P::splat(P::lane(t17, 1)), t26);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t32 = mul_add(t20, P::splat(P::lane(t17, 1)), t27);
+        let t33 = mul_add(t20, P::splat(P::lane(t17, 0)), t28);
+        let t34 = t14 * P::splat(P::lane(t16, 2));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t35 = mul_add(t21, P::splat(P::lane(t19, 0)), t29);
+        let t36 = mul_add(t21, P::splat(P::lane(t19, 1)), t31);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t37 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t38 = mul_add(t15, P::splat(P::lane(t17, 2)), t30);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t22, P::splat(P::lane(t19, 0)), t33);
+        let t40 = mul_add(t20, P::splat(P::lane(t17, 2)), t34);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t21, P::splat(P::lane(t19, 2)), t38);
+        // constant and copied elements
+        let t42 = P::load(&prepared[7]);
+        let t43 = P::load(&prepared[8]);
+        let t44 = P::load(&prepared[9]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t45 = P::splat(P::lane(t24, 1)) + t36 - t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t46 = mul_add(t22, P::splat(P::lane(t19, 2)), t40);
+        // legs 4, 5, 6: platform joint from the base point
+        let t47 = t35 + P::splat(P::lane(t24, 0)) - t42;
+        // legs 1, 2, 3: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t37 - t43;
+        // constant and copied elements
+        let t49 = P::load(&prepared[10]);
+        let t50 = P::load(&prepared[11]);
+        let t51 = P::load(&prepared[12]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t39 - t49;
+        // constant and copied elements
+        let t53 = P::load(&prepared[13]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t54 = P::splat(P::lane(t24, 2)) + t41 - t53;
+        // constant and copied elements
+        let t55 = P::load(&prepared[14]);
+        let t56 = P::load(&prepared[15]);
+        let t57 = P::load(&prepared[16]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t58 = P::splat(P::lane(t24, 2)) + t46 - t56;
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t59 = mul_add(t54, t57, mul_add(t47, t51, t44 * t45));
+        // constant and copied elements
+        let t60 = P::load(&prepared[17]);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t61 = P::load(&prepared[18]);
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t62 = mul_add(t58, t60, mul_add(t52, t55, t48 * t50));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t63 = P::load(&prepared[19]);
+        // angular velocity of the base
+        let t64 = t1 * P::splat(base_velocity[4]);
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t65 = neg_mul_add(t44, t59, t45);
+        let t66 = neg_mul_add(t51, t59, t47);
+        let t67 = neg_mul_add(t57, t59, t54);
+        // velocity of the platform origin relative to the base
+        let t68 = platform_velocity[1] - base_velocity[1];
+        let t69 = platform_velocity[0] - base_velocity[0];
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t70 = neg_mul_add(t50, t62, t48);
+        let t71 = neg_mul_add(t55, t62, t52);
+        let t72 = neg_mul_add(t60, t62, t58);
+        // angular velocity of the base
+        let t73 = mul_add(t2, P::splat(base_velocity[3]), t64);
+        // velocity of the platform origin relative to the base
+        let t74 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t75 = mul_add(t66, t66, t65 * t65);
+        // angular velocity of the platform
+        let t76 = t1 * P::splat(platform_velocity[4]);
+        // angular velocity of the base
+        let t77 = mul_add(t5, P::splat(base_velocity[5]), t73);
+        // velocity of the platform origin relative to the base
+        let t78 = mul_add(t2, P::splat(t69), t1 * P::splat(t68));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t79 = mul_add(t71, t71, t70 * t70);
+        // platform origin seen from the base
+        let t80 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t81 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // angular velocity of the platform
+        let t82 = mul_add(t2, P::splat(platform_velocity[3]), t76);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t83 = sqrt(neg_mul_add(t67, t67, t61) - t75);
+        // angular velocity of the platform
+        let t84 = mul_add(t5, P::splat(platform_velocity[5]), t82);
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t85 = sqrt(neg_mul_add(t72, t72, t63) - t79);
+        // angular velocity of the base
+        let t86 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+        let t87 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+        // velocity of the platform origin relative to the base
+        let t88 = neg_mul_add(t80, t86, mul_add(t5, P::splat(t74), t78));
+        // angular velocity of the platform relative to the base
+        let t89 = t77 - t84;
+        // velocity of the platform origin relative to the base
+        let t90 = mul_add(t81, t87, t88);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t91 = neg_mul_add(t41, P::splat(P::lane(t89, 1)), P::splat(P::lane(t90, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t92 = neg_mul_add(t46, P::splat(P::lane(t89, 1)), P::splat(P::lane(t90, 0)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t93 = neg_mul_add(t35, P::splat(P::lane(t89, 2)), P::splat(P::lane(t90, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t94 = neg_mul_add(t39, P::splat(P::lane(t89, 2)), P::splat(P::lane(t90, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t95 = neg_mul_add(t36, P::splat(P::lane(t89, 0)), P::splat(P::lane(t90, 2)));
+        // legs 4, 5, 6: rod's inertial coupling between its ends
+        let t96 = P::load(&prepared[20]);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t97 = neg_mul_add(t37, P::splat(P::lane(t89, 0)), P::splat(P::lane(t90, 2)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t98 = mul_add(t36, P::splat(P::lane(t89, 2)), t91);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t99 = mul_add(t37, P::splat(P::lane(t89, 2)), t92);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t100 = mul_add(t41, P::splat(P::lane(t89, 0)), t93);
+        // legs 4, 5, 6: reciprocal of that extent
+        let t101 = w(1.0) / t83;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t102 = mul_add(t46, P::splat(P::lane(t89, 0)), t94);
+        // legs 4, 5, 6: actuator length d
+        let t103 = t59 - t83;
+        // legs 1, 2, 3: rod's inertial coupling between its ends
+        let t104 = P::load(&prepared[21]);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t105 = mul_add(t35, P::splat(P::lane(t89, 1)), t95);
+        // legs 1, 2, 3: reciprocal of that extent
+        let t106 = w(1.0) / t85;
+        // legs 1, 2, 3: actuator length d
+        let t107 = t62 - t85;
+        // first moment of the rods' couplings by the Hooke joint
+        let t108 = mul_add(t44, t103, t23);
+        // their moment by platform joint and Hooke joint
+        let t109 = P::load(&prepared[22]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t110 = mul_add(t51, t103, t42);
+        let t111 = mul_add(t50, t107, t43);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t112 = mul_add(t39, P::splat(P::lane(t89, 1)), t97);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t113 = mul_add(t65, t101, t44);
+        let t114 = mul_add(t66, t101, t51);
+        let t115 = mul_add(t67, t101, t57);
+        // their moment by platform joint and Hooke joint
+        let t116 = P::load(&prepared[23]);
+        let t117 = P::load(&prepared[24]);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t118 = mul_add(t70, t106, t50);
+        let t119 = mul_add(t71, t106, t55);
+        let t120 = mul_add(t72, t106, t60);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t121 = mul_add(t57, t105, mul_add(t51, t98, t44 * t100));
+        // first moment of the rods' couplings by the Hooke joint
+        let t122 = mul_add(t55, t107, t49);
+        let t123 = mul_add(t57, t103, t53);
+        // their moment by platform joint and Hooke joint
+        let t124 = P::load(&prepared[25]);
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t125 = mul_add(t105, t115, mul_add(t98, t114, t100 * t113));
+        // their moment by platform joint and Hooke joint
+        let t126 = mul_add(t111, t117, t108 * t109);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t127 = mul_add(t60, t112, mul_add(t55, t99, t50 * t102));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t128 = P::splat(platform_rotation[0][1]) * t11;
+        let t129 = P::splat(platform_rotation[1][1]) * t11;
+        let t130 = P::splat(platform_rotation[2][1]) * t11;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t131 = P::splat(base_rotation[0][1]) * t113;
+        // their moment by platform joint and Hooke joint
+        let t132 = P::load(&prepared[26]);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t133 = neg_mul_add(t44, t121, t100);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t134 = mul_add(t112, t120, mul_add(t99, t119, t102 * t118));
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t135 = t65 * t101;
+        // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+        let t136 = P::load(&prepared[27]);
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t137 = t121 - t125;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t138 = P::splat(P::lane(t77, 0)) * t115;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t139 = P::load(&prepared[28]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t140 = mul_add(t60, t107, t56);
+        // their moment by platform joint and Hooke joint
+        let t141 = mul_add(t111, t124, t108 * t116);
+        let t142 = mul_add(t117, t122, t109 * t110);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t143 = P::splat(platform_rotation[0][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t144 = mul_add(P::splat(platform_rotation[0][0]), t15, t128);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t145 = P::splat(platform_rotation[1][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t146 = mul_add(P::splat(platform_rotation[1][0]), t15, t129);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t147 = P::splat(platform_rotation[2][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t148 = mul_add(P::splat(platform_rotation[2][0]), t15, t130);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t149 = P::splat(base_rotation[0][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t150 = mul_add(P::splat(base_rotation[0][0]), t114, t131);
+        let t151 = P::splat(base_rotation[1][1]) * t113;
+        let t152 = P::splat(base_rotation[2][1]) * t113;
+        // their moment by platform joint and Hooke joint
+        let t153 = P::load(&prepared[29]);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t154 = neg_mul_add(t51, t121, t98);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t155 = neg_mul_add(t50, t127, t102);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t156 = t66 * t101;
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t157 = t70 * t106;
+        // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+        let t158 = P::load(&prepared[30]);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t159 = t127 - t134;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t160 = P::splat(P::lane(t77, 2)) * t113;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t161 = P::splat(P::lane(t77, 0)) * t120;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t162 = mul_sub(P::splat(P::lane(t77, 2)), t114, t138);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t163 = P::load(&prepared[31]);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t164 = mul_sub(t103, t136, t139);
+        // their moment by platform joint and Hooke joint
+        let t165 = mul_add(t122, t124, t110 * t116);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t166 = mul_add(P::splat(platform_rotation[0][0]), t20, t143);
+        let t167 = mul_add(P::splat(platform_rotation[1][0]), t20, t145);
+        let t168 = mul_add(P::splat(platform_rotation[2][0]), t20, t147);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t169 = mul_add(P::splat(base_rotation[0][0]), t119, t149);
+        let t170 = P::splat(base_rotation[1][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t171 = mul_add(P::splat(base_rotation[1][0]), t114, t151);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t172 = P::splat(base_rotation[2][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t173 = mul_add(P::splat(base_rotation[2][0]), t114, t152);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t174 = P::splat(base_rotation[0][1]) * t44;
+        let t175 = P::splat(base_rotation[1][1]) * t44;
+        let t176 = P::splat(base_rotation[2][1]) * t44;
+        // their moment by platform joint and Hooke joint
+        let t177 = mul_add(t117, t140, t109 * t123);
+        let t178 = mul_add(t111, t153, t108 * t132);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t179 = neg_mul_add(t55, t127, t99);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t180 = t71 * t106;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t181 = mul_add(P::splat(platform_rotation[0][2]), t21, t144);
+        let t182 = mul_add(P::splat(platform_rotation[1][2]), t21, t146);
+        let t183 = mul_add(P::splat(platform_rotation[2][2]), t21, t148);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t184 = mul_add(P::splat(base_rotation[0][2]), t115, t150);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t185 = P::splat(base_rotation[0][1]) * t50;
+        let t186 = P::splat(base_rotation[1][1]) * t50;
+        let t187 = P::splat(base_rotation[2][1]) * t50;
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t188 = neg_mul_add(t57, t121, t105);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t189 = P::splat(P::lane(t77, 2)) * t118;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t190 = mul_sub(P::splat(P::lane(t77, 1)), t115, t160);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t191 = mul_sub(P::splat(P::lane(t77, 2)), t119, t161);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t192 = mul_sub(t107, t158, t163);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t193 = t67 * t101;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t194 = mul_add(t101, neg_mul_add(t135, t137, t133), t162);
+        let t195 = P::splat(P::lane(t77, 1)) * t114;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t196 = mul_add(P::splat(base_rotation[1][0]), t119, t170);
+        let t197 = mul_add(P::splat(base_rotation[2][0]), t119, t172);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t198 = mul_add(P::splat(base_rotation[0][0]), t51, t174);
+        let t199 = mul_add(P::splat(base_rotation[1][0]), t51, t175);
+        let t200 = mul_add(P::splat(base_rotation[2][0]), t51, t176);
+        // their moment by platform joint and Hooke joint
+        let t201 = mul_add(t124, t140, t116 * t123);
+        let t202 = mul_add(t122, t153, t110 * t132);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t203 = mul_add(P::splat(platform_rotation[0][2]), t22, t166);
+        let t204 = mul_add(P::splat(platform_rotation[1][2]), t22, t167);
+        let t205 = mul_add(P::splat(platform_rotation[2][2]), t22, t168);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t206 = mul_add(P::splat(base_rotation[0][2]), t120, t169);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t207 = mul_add(P::splat(base_rotation[1][2]), t115, t171);
+        let t208 = mul_add(P::splat(base_rotation[2][2]), t115, t173);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t209 = mul_add(P::splat(base_rotation[0][0]), t55, t185);
+        let t210 = mul_add(P::splat(base_rotation[1][0]), t55, t186);
+        let t211 = mul_add(P::splat(base_rotation[2][0]), t55, t187);
+        // their moment by platform joint and Hooke joint
+        let t212 = P::lane(t126, 2) + (P::lane(t126, 1) + P::lane(t126, 0));
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t213 = neg_mul_add(t60, t127, t112);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t214 = mul_sub(P::splat(P::lane(t77, 1)), t120, t189);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t215 = t72 * t106;
+        // part of the legs' mass matrix on the side of the axes
+        let t216 = t136 * t184;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t217 = mul_add(t101, neg_mul_add(t137, t156, t154), t190);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t218 = mul_add(t106, neg_mul_add(t157, t159, t155), t191);
+        let t219 = P::splat(P::lane(t77, 1)) * t119;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t220 = mul_sub(P::splat(P::lane(t77, 0)), t113, t195);
+        // legs 4, 5, 6: rate of the platform lever
+        let t221 = P::splat(platform_velocity[5]) * t182;
+        let t222 = P::splat(platform_velocity[3]) * t183;
+        let t223 = P::splat(platform_velocity[4]) * t181;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t224 = mul_add(t23, t136, t44 * t164);
+        // first moment of the rods' couplings by the Hooke joint
+        let t225 = mul_add(t104, t111, t96 * t108);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t226 = P::splat(base_rotation[0][1]) * t194;
+        let t227 = P::splat(base_rotation[1][1]) * t194;
+        let t228 = P::splat(base_rotation[2][1]) * t194;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t229 = mul_add(P::splat(base_rotation[1][2]), t120, t196);
+        let t230 = mul_add(P::splat(base_rotation[2][2]), t120, t197);
+        // their moment by platform joint and Hooke joint
+        let t231 = mul_add(t140, t153, t123 * t132);
+        let t232 = P::lane(t141, 2) + (P::lane(t141, 1) + P::lane(t141, 0));
+        let t233 = P::lane(t142, 2) + (P::lane(t142, 1) + P::lane(t142, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t234 = t158 * t206;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t235 = mul_add(t106, neg_mul_add(t159, t180, t179), t214);
+        let t236 = mul_sub(P::splat(P::lane(t77, 0)), t118, t219);
+        // legs 1, 2, 3: rate of the platform lever
+        let t237 = P::splat(platform_velocity[5]) * t204;
+        // legs 4, 5, 6: rate of the platform lever
+        let t238 = mul_sub(P::splat(platform_velocity[4]), t183, t221);
+        // legs 1, 2, 3: rate of the platform lever
+        let t239 = P::splat(platform_velocity[3]) * t205;
+        // legs 4, 5, 6: rate of the platform lever
+        let t240 = mul_sub(P::splat(platform_velocity[5]), t181, t222);
+        // legs 1, 2, 3: rate of the platform lever
+        let t241 = P::splat(platform_velocity[4]) * t203;
+        // legs 4, 5, 6: rate of the platform lever
+        let t242 = mul_sub(P::splat(platform_velocity[3]), t182, t223);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t243 = mul_add(t43, t158, t50 * t192);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t244 = mul_add(t42, t136, t51 * t164);
+        let t245 = mul_add(t53, t136, t57 * t164);
+        // first moment of the rods' couplings by the Hooke joint
+        let t246 = mul_add(t104, t122, t96 * t110);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t247 = mul_add(t101, neg_mul_add(t137, t193, t188), t220);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t248 = P::splat(base_rotation[0][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t249 = mul_add(P::splat(base_rotation[0][0]), t217, t226);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t250 = P::splat(base_rotation[1][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t251 = mul_add(P::splat(base_rotation[1][0]), t217, t227);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t252 = P::splat(base_rotation[2][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t253 = mul_add(P::splat(base_rotation[2][0]), t217, t228);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t254 = P::splat(P::lane(t77, 2)) * t224;
+        // Coriolis matrix C_b, natural factorisation
+        let t255 = P::load(&prepared[35]);
+        let t256 = t125 * P::load(&prepared[32]);
+        // part of the legs' mass matrix on the side of the axes
+        let t257 = P::load(&prepared[37]);
+        // their moment by platform joint and Hooke joint
+        let t258 = P::lane(t165, 2) + (P::lane(t165, 1) + P::lane(t165, 0));
+        let t259 = P::mul_add(base_rotation[0][0], t233, base_rotation[0][1] * t212);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t260 = t96 * mul_add(P::splat(base_rotation[0][2]), t57, t198);
+        let t261 = t96 * mul_add(P::splat(base_rotation[1][2]), t57, t199);
+        let t262 = t96 * mul_add(P::splat(base_rotation[2][2]), t57, t200);
+        // part of the legs' mass matrix on the side of the axes
+        let t263 = mul_add(t206, t234, t184 * t216);
+        let t264 = mul_add(t229, t234, t207 * t216);
+        let t265 = mul_add(t230, t234, t208 * t216);
+        // their moment by platform joint and Hooke joint
+        let t266 = P::lane(t177, 2) + (P::lane(t177, 1) + P::lane(t177, 0));
+        let t267 = P::lane(t178, 2) + (P::lane(t178, 1) + P::lane(t178, 0));
+        // legs 1, 2, 3: rate of the platform lever
+        let t268 = mul_sub(P::splat(platform_velocity[4]), t205, t237);
+        let t269 = mul_sub(P::splat(platform_velocity[5]), t203, t239);
+        let t270 = mul_sub(P::splat(platform_velocity[3]), t204, t241);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t271 = mul_add(t49, t158, t55 * t192);
+        let t272 = mul_add(t56, t158, t60 * t192);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t273 = mul_sub(t182, t208, t183 * t207);
+        let t274 = mul_sub(t183, t184, t181 * t208);
+        let t275 = mul_sub(t181, t207, t182 * t184);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t276 = t104 * mul_add(P::splat(base_rotation[0][2]), t60, t209);
+        let t277 = t104 * mul_add(P::splat(base_rotation[1][2]), t60, t210);
+        let t278 = t104 * mul_add(P::splat(base_rotation[2][2]), t60, t211);
+        // their moment by platform joint and Hooke joint
+        let t279 = P::mul_add(base_rotation[2][0], t233, base_rotation[2][1] * t212);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t280 = mul_add(t106, neg_mul_add(t159, t215, t213), t236);
+        let t281 = mul_add(P::splat(base_rotation[0][0]), t235, t248);
+        let t282 = mul_add(P::splat(base_rotation[1][0]), t235, t250);
+        let t283 = mul_add(P::splat(base_rotation[2][0]), t235, t252);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t284 = P::splat(P::lane(t77, 1)) * t244;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t285 = P::splat(P::lane(t77, 2)) * t243;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t286 = mul_sub(P::splat(P::lane(t77, 1)), t245, t254);
+        // Coriolis matrix C_b, natural factorisation
+        let t287 = P::load(&prepared[39]);
+        let t288 = t125 * P::load(&prepared[33]);
+        let t289 = P::load(&prepared[40]);
+        let t290 = t125 * P::load(&prepared[34]);
+        let t291 = mul_add(t134, t255, t256);
+        let t292 = P::load(&prepared[42]);
+        let t293 = t125 * P::load(&prepared[36]);
+        // part of the legs' mass matrix on the side of the axes
+        let t294 = P::load(&prepared[43]);
+        let t295 = P::load(&prepared[44]);
+        let t296 = t136 * t207;
+        let t297 = t136 * t208;
+        // first moment of the rods' couplings by the Hooke joint
+        let t298 = mul_add(t104, t140, t96 * t123);
+        // their moment by platform joint and Hooke joint
+        let t299 = P::mul_add(base_rotation[0][0], t258, base_rotation[0][1] * t232);
+        let t300 = P::mul_add(base_rotation[1][0], t233, base_rotation[1][1] * t212);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t301 = mul_add(P::splat(base_rotation[0][2]), t247, t249);
+        let t302 = mul_add(P::splat(base_rotation[1][2]), t247, t251);
+        let t303 = mul_add(P::splat(base_rotation[2][2]), t247, t253);
+        // their moment by platform joint and Hooke joint
+        let t304 = P::lane(t201, 2) + (P::lane(t201, 1) + P::lane(t201, 0));
+        let t305 = P::lane(t202, 2) + (P::lane(t202, 1) + P::lane(t202, 0));
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t306 = mul_sub(t204, t230, t205 * t229);
+        let t307 = mul_sub(t205, t206, t203 * t230);
+        let t308 = mul_sub(t203, t229, t204 * t206);
+        // their moment by platform joint and Hooke joint
+        let t309 = P::mul_add(base_rotation[2][0], t258, base_rotation[2][1] * t232);
+        // legs 1, 2, 3: moment of that force's rate
+        let t310 = P::splat(base_velocity[4]) * t276;
+        let t311 = P::splat(base_velocity[3]) * t278;
+        let t312 = P::splat(base_velocity[5]) * t277;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t313 = P::splat(P::lane(t77, 1)) * t271;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t314 = P::splat(P::lane(t77, 0)) * t245;
+        let t315 = mul_sub(P::splat(P::lane(t77, 0)), t224, t284);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t316 = mul_sub(P::splat(P::lane(t77, 1)), t272, t285);
+        // Coriolis matrix C_b, natural factorisation
+        let t317 = P::load(&prepared[46]);
+        let t318 = t125 * P::load(&prepared[38]);
+        let t319 = mul_add(t134, t287, t288);
+        let t320 = mul_add(t134, t289, t290);
+        let t321 = P::load(&prepared[47]);
+        let t322 = t125 * P::load(&prepared[41]);
+        let t323 = mul_add(t134, t292, t293);
+        // part of the legs' mass matrix on the side of the axes
+        let t324 = P::load(&prepared[48]);
+        let t325 = mul_add(t206, t295, t184 * t257);
+        let t326 = mul_add(t229, t295, t207 * t257);
+        let t327 = mul_add(t230, t295, t208 * t257);
+        let t328 = t158 * t229;
+        let t329 = t158 * t230;
+        // their moment by platform joint and Hooke joint
+        let t330 = P::mul_add(base_rotation[1][0], t258, base_rotation[1][1] * t232);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t331 = mul_add(P::splat(base_rotation[0][2]), t280, t281);
+        let t332 = mul_add(P::splat(base_rotation[1][2]), t280, t282);
+        let t333 = mul_add(P::splat(base_rotation[2][2]), t280, t283);
+        // Coriolis matrix C_b, natural factorisation
+        let t334 = P::load(&prepared[50]);
+        let t335 = t125 * P::load(&prepared[45]);
+        // legs 4, 5, 6: moment of that force
+        let t336 = mul_sub(t182, t262, t183 * t261);
+        let t337 = mul_sub(t183, t260, t181 * t262);
+        let t338 = mul_sub(t181, t261, t182 * t260);
+        // part of the legs' mass matrix on the side of the axes
+        let t339 = P::load(&prepared[52]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t340 = P::lane(t225, 2) + (P::lane(t225, 1) + P::lane(t225, 0));
+        // their moment by platform joint and Hooke joint
+        let t341 = P::mul_add(base_rotation[0][2], t304, t299);
+        // constant and copied elements
+        let t342 =
+            P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t343 = P::mul_add(base_rotation[0][0], t305, base_rotation[0][1] * t267);
+        let t344 = P::splat(P::mul_add(base_rotation[0][2], t266, t259)) * t342;
+        let t345 = P::lane(t231, 2) + (P::lane(t231, 1) + P::lane(t231, 0));
+        // legs 1, 2, 3: moment of that force's rate
+        let t346 = mul_sub(P::splat(base_velocity[3]), t277, t310);
+        let t347 = mul_sub(P::splat(base_velocity[5]), t276, t311);
+        let t348 = mul_sub(P::splat(base_velocity[4]), t278, t312);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t349 = P::splat(P::lane(t77, 0)) * t272;
+        let t350 = mul_sub(P::splat(P::lane(t77, 0)), t243, t313);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t351 = mul_sub(P::splat(P::lane(t77, 2)), t244, t314);
+        // Coriolis matrix C_b, natural factorisation
+        let t352 = mul_add(t134, t317, t318);
+        let t353 = mul_add(t134, t321, t322);
+        // part of the legs' mass matrix on the side of the axes
+        let t354 = mul_add(t206, t324, t184 * t294);
+        let t355 = mul_add(t229, t324, t207 * t294);
+        let t356 = mul_add(t230, t324, t208 * t294);
+        let t357 = mul_add(t234, t306, t216 * t273);
+        let t358 = mul_add(t234, t307, t216 * t274);
+        let t359 = mul_add(t234, t308, t216 * t275);
+        let t360 = mul_add(t229, t328, t207 * t296);
+        let t361 = mul_add(t230, t328, t208 * t296);
+        let t362 = mul_add(t306, t328, t273 * t296);
+        let t363 = mul_add(t307, t328, t274 * t296);
+        let t364 = mul_add(t308, t328, t275 * t296);
+        let t365 = mul_add(t306, t329, t273 * t297);
+        let t366 = mul_add(t307, t329, t274 * t297);
+        let t367 = mul_add(t308, t329, t275 * t297);
+        let t368 = P::triple([P::lane(t263, 0), P::lane(t264, 0), P::lane(t265, 0)]);
+        let t369 = P::triple([P::lane(t263, 1), P::lane(t264, 1), P::lane(t265, 1)]);
+        // constant and copied elements
+        let t370 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t371 = P::mul_add(base_rotation[2][2], t304, t309);
+        let t372 = P::mul_add(base_rotation[2][0], t305, base_rotation[2][1] * t267);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t373 = mul_add(t182, t303, mul_sub(t208, t240, t207 * t242));
+        let t374 = mul_add(t183, t301, mul_sub(t184, t242, t208 * t238));
+        let t375 = mul_add(t181, t302, mul_sub(t207, t238, t184 * t240));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t376 = mul_sub(t51, t315, t57 * t286);
+        // Coriolis matrix C_b, natural factorisation
+        let t377 = P::load(&prepared[53]);
+        let t378 = t125 * P::load(&prepared[49]);
+        let t379 = mul_add(t134, t334, t335);
+        let t380 = P::load(&prepared[54]);
+        let t381 = t125 * P::load(&prepared[51]);
+        // legs 1, 2, 3: moment of that force
+        let t382 = mul_sub(t204, t278, t205 * t277);
+        let t383 = mul_sub(t205, t276, t203 * t278);
+        let t384 = mul_sub(t203, t277, t204 * t276);
+        // part of the legs' mass matrix on the side of the axes
+        let t385 = P::load(&prepared[55]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t386 = P::lane(t246, 2) + (P::lane(t246, 1) + P::lane(t246, 0));
+        // constant and copied elements
+        let t387 =
+            P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+        // their moment by platform joint and Hooke joint
+        let t388 = P::mul_add(base_rotation[1][2], t304, t330);
+        let t389 = P::mul_add(base_rotation[1][0], t305, base_rotation[1][1] * t267);
+        let t390 = P::splat(P::mul_add(base_rotation[2][2], t266, t279)) * t342;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t391 = mul_add(t234, t331, t216 * t301);
+        let t392 = mul_add(t324, t331, t294 * t301);
+        let t393 = mul_add(t234, t332, t216 * t302);
+        let t394 = mul_add(t324, t332, t294 * t302);
+        let t395 = mul_add(t234, t333, t216 * t303);
+        let t396 = mul_add(t324, t333, t294 * t303);
+        let t397 = mul_add(t328, t331, t296 * t301);
+        let t398 = mul_add(t328, t332, t296 * t302);
+        let t399 = mul_add(t328, t333, t296 * t303);
+        let t400 = mul_add(t329, t331, t297 * t301);
+        let t401 = mul_add(t329, t332, t297 * t302);
+        let t402 = mul_add(t329, t333, t297 * t303);
+        // part of the legs' mass matrix on the side of the axes
+        let t403 = t136 * t273;
+        // their moment by platform joint and Hooke joint
+        let t404 = P::mul_add(base_rotation[0][2], t345, t343);
+        let t405 = t342 * P::splat(P::mul_add(base_rotation[1][2], t266, t300));
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t406 = mul_sub(P::splat(P::lane(t77, 2)), t271, t349);
+        // part of the legs' mass matrix on the side of the axes
+        let t407 = P::triple([P::lane(t263, 2), P::lane(t264, 2), P::lane(t265, 2)]);
+        // constant and copied elements
+        let t408 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t409 = mul_add(t204, t333, mul_sub(t230, t269, t229 * t270));
+        let t410 = mul_add(t205, t331, mul_sub(t206, t270, t230 * t268));
+        let t411 = mul_add(t203, t332, mul_sub(t229, t268, t206 * t269));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t412 = mul_sub(t57, t351, t44 * t315);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t413 = mul_sub(t55, t350, t60 * t316);
+        // Coriolis matrix C_b, natural factorisation
+        let t414 = mul_add(t134, t377, t378);
+        let t415 = mul_add(t134, t380, t381);
+        // part of the legs' mass matrix on the side of the axes
+        let t416 = mul_add(t206, t385, t184 * t339);
+        let t417 = mul_add(t229, t385, t207 * t339);
+        let t418 = mul_add(t230, t385, t208 * t339);
+        let t419 = t368 + t369 + t407;
+        // first moment of the rods' couplings by the Hooke joint
+        let t420 = mul_add(P::splat(t386), t408, P::splat(t340) * t370);
+        // their moment by platform joint and Hooke joint
+        let t421 = mul_add(P::splat(t371), t387, t390);
+        let t422 = P::mul_add(base_rotation[2][2], t345, t372);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t423 = neg_mul_add(t183, t302, t373);
+        let t424 = neg_mul_add(t181, t303, t374);
+        let t425 = neg_mul_add(t182, t301, t375);
+        // Coriolis matrix C_b, natural factorisation
+        let t426 = P::lane(t291, 2) + (P::lane(t291, 1) + P::lane(t291, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t427 = mul_add(t206, t382, t184 * t336);
+        let t428 = mul_add(t229, t382, t207 * t336);
+        let t429 = mul_add(t230, t382, t208 * t336);
+        let t430 = t158 * t306;
+        let t431 = mul_add(t206, t383, t184 * t337);
+        let t432 = mul_add(t229, t383, t207 * t337);
+        let t433 = mul_add(t230, t383, t208 * t337);
+        let t434 = mul_add(t206, t384, t184 * t338);
+        let t435 = mul_add(t229, t384, t207 * t338);
+        let t436 = mul_add(t230, t384, t208 * t338);
+        let t437 = P::triple([P::lane(t325, 0), P::lane(t326, 0), P::lane(t327, 0)]);
+        let t438 = P::triple([P::lane(t325, 1), P::lane(t326, 1), P::lane(t327, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t439 = P::lane(t298, 2) + (P::lane(t298, 1) + P::lane(t298, 0));
+        // constant and copied elements
+        let t440 =
+            P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+        // their moment by platform joint and Hooke joint
+        let t441 = P::mul_add(base_rotation[1][2], t345, t389);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t442 = mul_add(t295, t331, t257 * t301);
+        let t443 = mul_add(t295, t332, t257 * t302);
+        let t444 = mul_add(t295, t333, t257 * t303);
+        // their moment by platform joint and Hooke joint
+        let t445 = mul_add(P::splat(t404), t440, mul_add(P::splat(t341), t387, t344));
+        // legs 1, 2, 3: moment of that force's rate
+        let t446 = mul_sub(t204, t346, t205 * t347);
+        let t447 = mul_sub(t205, t348, t203 * t346);
+        let t448 = mul_sub(t203, t347, t204 * t348);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t449 = mul_sub(t60, t406, t50 * t350);
+        // Coriolis matrix C_b, natural factorisation
+        let t450 = mul_add(t134, t295, t125 * t257);
+        // constant and copied elements
+        let t451 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t452 = neg_mul_add(t205, t332, t409);
+        let t453 = neg_mul_add(t203, t333, t410);
+        let t454 = neg_mul_add(t204, t331, t411);
+        // legs 4, 5, 6: moment of that force's rate
+        let t455 = P::splat(base_velocity[4]) * t260;
+        let t456 = P::splat(base_velocity[3]) * t262;
+        let t457 = P::splat(base_velocity[5]) * t261;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t458 = mul_sub(t44, t286, t51 * t351);
+        // Coriolis matrix C_b, natural factorisation
+        let t459 = mul_add(t206, t413, t184 * t376);
+        let t460 = mul_add(t229, t413, t207 * t376);
+        let t461 = mul_add(t230, t413, t208 * t376);
+        let t462 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
+        let t463 = P::lane(t320, 2) + (P::lane(t320, 1) + P::lane(t320, 0));
+        let t464 = P::lane(t323, 2) + (P::lane(t323, 1) + P::lane(t323, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t465 = mul_add(t230, t329, t208 * t297);
+        let t466 = mul_add(t306, t430, t273 * t403);
+        let t467 = mul_add(t307, t430, t274 * t403);
+        let t468 = mul_add(t308, t430, t275 * t403);
+        let t469 = P::triple([P::lane(t354, 0), P::lane(t355, 0), P::lane(t356, 0)]);
+        let t470 = P::triple([P::lane(t354, 1), P::lane(t355, 1), P::lane(t356, 1)]);
+        let t471 = P::triple([P::lane(t325, 2), P::lane(t326, 2), P::lane(t327, 2)]);
+        let t472 = P::triple([P::lane(t357, 0), P::lane(t358, 0), P::lane(t359, 0)]);
+        let t473 = P::triple([P::lane(t357, 1), P::lane(t358, 1), P::lane(t359, 1)]);
+        let t474 = P::lane(t361, 1) + P::lane(t361, 0);
+        let t475 = P::triple([P::lane(t362, 0), P::lane(t363, 0), P::lane(t364, 0)]);
+        let t476 = P::triple([P::lane(t362, 1), P::lane(t363, 1), P::lane(t364, 1)]);
+        let t477 = P::triple([P::lane(t365, 0), P::lane(t366, 0), P::lane(t367, 0)]);
+        let t478 = P::triple([P::lane(t365, 1), P::lane(t366, 1), P::lane(t367, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t479 = mul_add(P::splat(t439), t451, t420);
+        // their moment by platform joint and Hooke joint
+        let t480 = mul_add(P::splat(t422), t440, t421);
+        // mass matrix M_b that couples the base acceleration
+        let t481 = P::load(&prepared[56]);
+        // part of the legs' mass matrix on the side of the axes
+        let t482 = t437 + t438 + t471;
+        // their moment by platform joint and Hooke joint
+        let t483 = mul_add(t440, P::splat(t441), mul_add(t387, P::splat(t388), t405));
+        // mass matrix M_b that couples the base acceleration
+        let t484 = P::load(&prepared[57]);
+        // legs 1, 2, 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t485 = neg_mul_add(t158, t306, t382);
+        let t486 = neg_mul_add(t158, t307, t383);
+        let t487 = neg_mul_add(t158, t308, t384);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t488 = mul_add(t331, t385, t301 * t339);
+        let t489 = mul_add(t332, t385, t302 * t339);
+        let t490 = mul_add(t333, t385, t303 * t339);
+        let t491 = P::triple([P::lane(t391, 0), P::lane(t393, 0), P::lane(t395, 0)]);
+        let t492 = P::triple([P::lane(t391, 1), P::lane(t393, 1), P::lane(t395, 1)]);
+        let t493 = P::triple([P::lane(t397, 0), P::lane(t398, 0), P::lane(t399, 0)]);
+        let t494 = P::triple([P::lane(t397, 1), P::lane(t398, 1), P::lane(t399, 1)]);
+        let t495 = P::triple([P::lane(t400, 0), P::lane(t401, 0), P::lane(t402, 0)]);
+        let t496 = P::triple([P::lane(t400, 1), P::lane(t401, 1), P::lane(t402, 1)]);
+        let t497 = P::triple([P::lane(t392, 0), P::lane(t394, 0), P::lane(t396, 0)]);
+        let t498 = P::triple([P::lane(t392, 1), P::lane(t394, 1), P::lane(t396, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t499 = mul_add(t134, t324, t125 * t294);
+        let t500 = mul_add(t134, t385, t125 * t339);
+        let t501 = mul_add(t308, t413, t275 * t376);
+        // part of the legs' mass matrix on the side of the axes
+        let t502 = t136 * t274;
+        // legs 4, 5, 6: moment of that force's rate
+        let t503 = mul_sub(P::splat(base_velocity[3]), t261, t455);
+        let t504 = mul_sub(P::splat(base_velocity[5]), t260, t456);
+        let t505 = mul_sub(P::splat(base_velocity[4]), t262, t457);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t506 = mul_sub(t50, t316, t55 * t406);
+        // Coriolis matrix C_b, natural factorisation
+        let t507 = mul_add(t206, t449, t184 * t412);
+        let t508 = mul_add(t229, t449, t207 * t412);
+        let t509 = mul_add(t230, t449, t208 * t412);
+        let t510 = mul_add(t306, t413, t273 * t376);
+        let t511 = mul_add(t307, t413, t274 * t376);
+        let t512 = P::lane(t352, 2) + (P::lane(t352, 1) + P::lane(t352, 0));
+        let t513 = P::mul_add(platform_rotation[0][0], t463, platform_rotation[0][1] * t426);
+        let t514 = P::lane(t353, 2) + (P::lane(t353, 1) + P::lane(t353, 0));
+        let t515 = P::mul_add(platform_rotation[1][0], t463, platform_rotation[1][1] * t426);
+        // part of the legs' mass matrix on the side of the axes
+        let t516 = P::triple([P::lane(t354, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+        let t517 = P::triple([P::lane(t357, 2), P::lane(t358, 2), P::lane(t359, 2)]);
+        let t518 = P::triple([P::lane(t419, 1), P::lane(t360, 2), P::lane(t361, 2)]);
+        let t519 = P::triple([c(0.0), P::lane(t360, 1) + P::lane(t360, 0), t474]);
+        let t520 = P::triple([P::lane(t362, 2), P::lane(t363, 2), P::lane(t364, 2)]);
+        let t521 = P::triple([P::lane(t365, 2), P::lane(t366, 2), P::lane(t367, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t522 = P::load(&prepared[58]);
+        let t523 = P::load(&prepared[59]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t524 = mul_add(t234, t452, t216 * t423);
+        let t525 = mul_add(t324, t452, t294 * t423);
+        let t526 = mul_add(t234, t453, t216 * t424);
+        let t527 = mul_add(t324, t453, t294 * t424);
+        let t528 = mul_add(t234, t454, t216 * t425);
+        let t529 = mul_add(t324, t454, t294 * t425);
+        let t530 = mul_add(t329, t452, t297 * t423);
+        let t531 = mul_add(t329, t453, t297 * t424);
+        let t532 = mul_add(t329, t454, t297 * t425);
+        // Coriolis matrix C_b, natural factorisation
+        let t533 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t534 = mul_add(t295, t306, t257 * t273);
+        let t535 = mul_add(t295, t307, t257 * t274);
+        let t536 = mul_add(t295, t308, t257 * t275);
+        let t537 = t469 + t470 + t516;
+        let t538 = P::splat(base_rotation[0][1]) * t482;
+        let t539 = P::triple([P::lane(t416, 0), P::lane(t417, 0), P::lane(t418, 0)]);
+        let t540 = P::triple([P::lane(t416, 1), P::lane(t417, 1), P::lane(t418, 1)]);
+        let t541 = t472 + t473 + t517;
+        let t542 = t518 + t519;
+        let t543 = P::splat(base_rotation[1][1]) * t482;
+        let t544 = t475 + t476 + t520;
+        let t545 = P::splat(base_rotation[2][1]) * t482;
+        let t546 = t477 + t478 + t521;
+        // mass matrix M_b that couples the base acceleration
+        let t547 = P::load(&prepared[60]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t548 = mul_add(t328, t452, t296 * t423);
+        let t549 = mul_add(t328, t453, t296 * t424);
+        let t550 = mul_add(t328, t454, t296 * t425);
+        let t551 = P::triple([P::lane(t391, 2), P::lane(t393, 2), P::lane(t395, 2)]);
+        let t552 = P::triple([P::lane(t397, 2), P::lane(t398, 2), P::lane(t399, 2)]);
+        let t553 = P::triple([P::lane(t400, 2), P::lane(t401, 2), P::lane(t402, 2)]);
+        let t554 = P::triple([P::lane(t392, 2), P::lane(t394, 2), P::lane(t396, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t555 = mul_add(t308, t449, t275 * t412);
+        // part of the legs' mass matrix on the side of the axes
+        let t556 = mul_add(t306, t382, t273 * t336);
+        let t557 = mul_add(t307, t382, t274 * t336);
+        let t558 = mul_add(t308, t382, t275 * t336);
+        let t559 = mul_add(t306, t383, t273 * t337);
+        let t560 = t158 * t307;
+        let t561 = mul_add(t307, t383, t274 * t337);
+        let t562 = mul_add(t308, t383, t275 * t337);
+        let t563 = mul_add(t306, t384, t273 * t338);
+        let t564 = mul_add(t307, t384, t274 * t338);
+        let t565 = mul_add(t308, t384, t275 * t338);
+        let t566 = P::triple([P::lane(t427, 0), P::lane(t428, 0), P::lane(t429, 0)]);
+        let t567 = P::triple([P::lane(t427, 1), P::lane(t428, 1), P::lane(t429, 1)]);
+        let t568 = P::triple([P::lane(t431, 0), P::lane(t432, 0), P::lane(t433, 0)]);
+        let t569 = P::triple([P::lane(t431, 1), P::lane(t432, 1), P::lane(t433, 1)]);
+        let t570 = P::triple([P::lane(t434, 0), P::lane(t435, 0), P::lane(t436, 0)]);
+        let t571 = P::triple([P::lane(t434, 1), P::lane(t435, 1), P::lane(t436, 1)]);
+        // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t572 = neg_mul_add(t136, t273, t336);
+        let t573 = neg_mul_add(t136, t274, t337);
+        let t574 = neg_mul_add(t136, t275, t338);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t575 = P::triple([P::lane(t442, 0), P::lane(t443, 0), P::lane(t444, 0)]);
+        let t576 = P::triple([P::lane(t442, 1), P::lane(t443, 1), P::lane(t444, 1)]);
+        let t577 = t497 + t498 + t554;
+        // Coriolis matrix C_b, natural factorisation
+        let t578 = mul_add(t306, t449, t273 * t412);
+        let t579 = mul_add(t307, t449, t274 * t412);
+        let t580 = P::mul_add(platform_rotation[0][0], t512, platform_rotation[0][1] * t462);
+        let t581 = P::mul_add(platform_rotation[0][0], t514, platform_rotation[0][1] * t464);
+        let t582 = P::mul_add(platform_rotation[1][0], t512, platform_rotation[1][1] * t462);
+        let t583 = P::mul_add(platform_rotation[1][0], t514, platform_rotation[1][1] * t464);
+        let t584 = P::mul_add(platform_rotation[2][0], t463, platform_rotation[2][1] * t426);
+        // mass matrix M_b that couples the base acceleration
+        let t585 = P::load(&prepared[62]);
+        let t586 = P::load(&prepared[63]);
+        // Coriolis matrix C_b, natural factorisation
+        let t587 = mul_add(t206, t506, t184 * t458);
+        let t588 = mul_add(t229, t506, t207 * t458);
+        let t589 = mul_add(t230, t506, t208 * t458);
+        let t590 = P::lane(t414, 2) + (P::lane(t414, 1) + P::lane(t414, 0));
+        let t591 = P::mul_add(platform_rotation[0][2], t533, t513);
+        let t592 = P::lane(t415, 2) + (P::lane(t415, 1) + P::lane(t415, 0));
+        let t593 = base_velocity[4] * P::lane(t480, 0);
+        let t594 = P::mul_add(platform_rotation[1][2], t533, t515);
+        let t595 = base_velocity[5] * P::lane(t445, 1);
+        // part of the legs' mass matrix on the side of the axes
+        let t596 = mul_add(t306, t324, t273 * t294);
+        let t597 = mul_add(t307, t324, t274 * t294);
+        let t598 = mul_add(t308, t324, t275 * t294);
+        let t599 = mul_add(P::splat(base_rotation[0][0]), t537, t538);
+        let t600 = P::triple([P::lane(t416, 2), P::lane(t417, 2), P::lane(t418, 2)]);
+        let t601 = mul_add(P::splat(base_rotation[1][0]), t537, t543);
+        let t602 = mul_add(P::splat(base_rotation[2][0]), t537, t545);
+        // mass matrix M_b that couples the base acceleration
+        let t603 = P::load(&prepared[64]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t604 = mul_add(t295, t452, t257 * t423);
+        let t605 = mul_add(t295, t453, t257 * t424);
+        let t606 = mul_add(t295, t454, t257 * t425);
+        // part of the legs' mass matrix on the side of the axes
+        let t607 = mul_add(t307, t560, t274 * t502);
+        let t608 = mul_add(t308, t560, t275 * t502);
+        let t609 = t539 + t540 + t600;
+        let t610 = P::triple([P::lane(t427, 2), P::lane(t428, 2), P::lane(t429, 2)]);
+        let t611 = P::triple([P::lane(t466, 0), P::lane(t467, 0), P::lane(t468, 0)]);
+        let t612 = P::triple([P::lane(t466, 1), P::lane(t467, 1), P::lane(t468, 1)]);
+        let t613 = P::triple([P::lane(t431, 2), P::lane(t432, 2), P::lane(t433, 2)]);
+        let t614 = P::triple([P::lane(t434, 2), P::lane(t435, 2), P::lane(t436, 2)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t615 = P::triple([P::lane(t442, 2), P::lane(t443, 2), P::lane(t444, 2)]);
+        let t616 = neg_mul_add(P::splat(base_rotation[0][0]), t577, t491 + t492 + t551);
+        let t617 = neg_mul_add(P::splat(base_rotation[1][0]), t577, t493 + t494 + t552);
+        let t618 = neg_mul_add(P::splat(base_rotation[2][0]), t577, t495 + t496 + t553);
+        // Coriolis matrix C_b, natural factorisation
+        let t619 = mul_add(t308, t506, t275 * t458);
+        let t620 = base_velocity[4] * P::lane(t479, 0);
+        let t621 = base_velocity[3] * P::lane(t479, 2);
+        let t622 = base_velocity[5] * P::lane(t479, 1);
+        let t623 = P::mul_add(platform_rotation[2][0], t512, platform_rotation[2][1] * t462);
+        let t624 = P::mul_add(platform_rotation[2][0], t514, platform_rotation[2][1] * t464);
+        // part of the legs' mass matrix on the side of the axes
+        let t625 = t566 + t567 + t610;
+        let t626 = t568 + t569 + t613;
+        let t627 = t570 + t571 + t614;
+        // mass matrix M_b that couples the base acceleration
+        let t628 = P::load(&prepared[65]);
+        // legs 4, 5, 6: moment of that force's rate
+        let t629 = mul_sub(t182, t503, t183 * t504);
+        let t630 = mul_sub(t183, t505, t181 * t503);
+        let t631 = mul_sub(t181, t504, t182 * t505);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t632 = mul_add(t301, t572, mul_add(t331, t485, t206 * t446));
+        let t633 = mul_add(t302, t572, mul_add(t332, t485, t229 * t446));
+        let t634 = mul_add(t303, t572, mul_add(t333, t485, t230 * t446));
+        let t635 = mul_add(t301, t573, mul_add(t331, t486, t206 * t447));
+        let t636 = mul_add(t302, t573, mul_add(t332, t486, t229 * t447));
+        let t637 = mul_add(t303, t573, mul_add(t333, t486, t230 * t447));
+        let t638 = mul_add(t301, t574, mul_add(t331, t487, t206 * t448));
+        let t639 = mul_add(t302, t574, mul_add(t332, t487, t229 * t448));
+        let t640 = mul_add(t303, t574, mul_add(t333, t487, t230 * t448));
+        let t641 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
+        let t642 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
+        let t643 = t575 + t576 + t615;
+        // Coriolis matrix C_b, natural factorisation
+        let t644 = mul_add(t306, t506, t273 * t458);
+        let t645 = mul_add(t307, t506, t274 * t458);
+        let t646 = P::lane(t450, 2) + (P::lane(t450, 1) + P::lane(t450, 0));
+        let t647 = P::mul_add(platform_rotation[0][2], t590, t580);
+        let t648 = P::mul_add(platform_rotation[0][2], t592, t581);
+        let t649 = P::mul_sub(base_velocity[5], P::lane(t483, 0), t593);
+        let t650 = P::mul_add(platform_rotation[1][2], t590, t582);
+        let t651 = P::mul_add(platform_rotation[1][2], t592, t583);
+        let t652 = P::mul_add(platform_rotation[2][2], t533, t584);
+        let t653 = P::mul_sub(base_velocity[3], P::lane(t480, 1), t595);
+        let t654 = base_velocity[3] * P::lane(t483, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t655 = P::load(&prepared[66]);
+        // Coriolis matrix C_b, natural factorisation
+        let t656 = P::lane(t459, 2) + (P::lane(t459, 1) + P::lane(t459, 0));
+        let t657 = P::lane(t460, 2) + (P::lane(t460, 1) + P::lane(t460, 0));
+        let t658 = P::lane(t461, 2) + (P::lane(t461, 1) + P::lane(t461, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t659 = mul_add(t306, t385, t273 * t339);
+        let t660 = mul_add(t307, t385, t274 * t339);
+        let t661 = mul_add(t308, t385, t275 * t339);
+        let t662 = mul_add(P::splat(base_rotation[0][2]), t609, t599);
+        let t663 = mul_add(P::splat(base_rotation[1][2]), t609, t601);
+        let t664 = P::triple([P::lane(t419, 2), P::lane(t542, 2), P::lane(t465, 2)]);
+        let t665 = P::triple([c(0.0), c(0.0), P::lane(t465, 1) + P::lane(t465, 0)]);
+        let t666 = mul_add(P::splat(base_rotation[2][2]), t609, t602);
+        let t667 = P::triple([P::lane(t541, 0), P::lane(t544, 0), P::lane(t546, 0)]);
+        let t668 = P::triple([P::lane(t466, 2), P::lane(t467, 2), P::lane(t468, 2)]);
+        let t669 = P::triple([P::lane(t541, 1), P::lane(t544, 1), P::lane(t546, 1)]);
+        let t670 = P::triple([P::lane(t541, 2), P::lane(t544, 2), P::lane(t546, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t671 = P::load(&prepared[67]);
+        // legs 4, 5, 6: moment of that force by the rate of the lever
+        let t672 = mul_sub(t240, t262, t242 * t261);
+        let t673 = mul_sub(t242, t260, t238 * t262);
+        let t674 = mul_sub(t238, t261, t240 * t260);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t675 = mul_add(t385, t452, t339 * t423);
+        let t676 = mul_add(t385, t453, t339 * t424);
+        let t677 = mul_add(t385, t454, t339 * t425);
+        let t678 = P::triple([P::lane(t524, 0), P::lane(t526, 0), P::lane(t528, 0)]);
+        let t679 = P::triple([P::lane(t524, 1), P::lane(t526, 1), P::lane(t528, 1)]);
+        let t680 = P::triple([P::lane(t530, 0), P::lane(t531, 0), P::lane(t532, 0)]);
+        let t681 = P::triple([P::lane(t530, 1), P::lane(t531, 1), P::lane(t532, 1)]);
+        let t682 = P::triple([P::lane(t525, 0), P::lane(t527, 0), P::lane(t529, 0)]);
+        let t683 = P::triple([P::lane(t525, 1), P::lane(t527, 1), P::lane(t529, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t684 = P::mul_sub(base_velocity[3], P::lane(t479, 1), t620);
+        let t685 = P::mul_sub(base_velocity[5], P::lane(t479, 0), t621);
+        let t686 = P::mul_sub(base_velocity[4], P::lane(t479, 2), t622);
+        // part of the legs' mass matrix on the side of the axes
+        let t687 = P::triple([P::lane(t534, 0), P::lane(t535, 0), P::lane(t536, 0)]);
+        let t688 = P::triple([P::lane(t534, 1), P::lane(t535, 1), P::lane(t536, 1)]);
+        let t689 = t667 - t625;
+        let t690 = t611 + t612 + t668;
+        let t691 = t669 - t626;
+        let t692 = t670 - t627;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t693 = P::triple([P::lane(t548, 0), P::lane(t549, 0), P::lane(t550, 0)]);
+        let t694 = P::triple([P::lane(t548, 1), P::lane(t549, 1), P::lane(t550, 1)]);
+        let t695 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
+        let t696 = mul_sub(P::splat(base_rotation[0][1]), t643, t616);
+        let t697 = mul_sub(P::splat(base_rotation[1][1]), t643, t617);
+        let t698 = mul_sub(P::splat(base_rotation[2][1]), t643, t618);
+        // Coriolis matrix C_b, natural factorisation
+        let t699 = P::lane(t499, 2) + (P::lane(t499, 1) + P::lane(t499, 0));
+        let t700 = P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0));
+        let t701 = P::mul_add(platform_rotation[2][2], t590, t623);
+        let t702 = P::mul_add(platform_rotation[2][2], t592, t624);
+        let t703 = P::mul_sub(base_velocity[4], P::lane(t445, 2), t654);
+        let t704 = P::lane(t501, 2) + (P::lane(t501, 1) + P::lane(t501, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t705 = P::triple([P::lane(t556, 0), P::lane(t557, 0), P::lane(t558, 0)]);
+        let t706 = P::triple([P::lane(t556, 1), P::lane(t557, 1), P::lane(t558, 1)]);
+        let t707 = P::triple([P::lane(t559, 0), P::lane(t561, 0), P::lane(t562, 0)]);
+        let t708 = P::triple([P::lane(t559, 1), P::lane(t561, 1), P::lane(t562, 1)]);
+        let t709 = P::triple([P::lane(t563, 0), P::lane(t564, 0), P::lane(t565, 0)]);
+        let t710 = P::triple([P::lane(t563, 1), P::lane(t564, 1), P::lane(t565, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t711 = mul_add(t206, t547, t184 * t484);
+        let t712 = mul_add(t229, t547, t207 * t484);
+        let t713 = mul_add(t230, t547, t208 * t484);
+        let t714 = mul_add(t306, t628, t273 * t586);
+        let t715 = mul_add(t307, t628, t274 * t586);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t716 = mul_add(t184, t629, t632);
+        let t717 = mul_add(t207, t629, t633);
+        let t718 = mul_add(t208, t629, t634);
+        let t719 = mul_add(t184, t630, t635);
+        let t720 = mul_add(t207, t630, t636);
+        let t721 = mul_add(t208, t630, t637);
+        let t722 = mul_add(t184, t631, t638);
+        let t723 = mul_add(t207, t631, t639);
+        let t724 = mul_add(t208, t631, t640);
+        let t725 = t641 + t642 + t695;
+        // Coriolis matrix C_b, natural factorisation
+        let t726 = P::lane(t507, 2) + (P::lane(t507, 1) + P::lane(t507, 0));
+        let t727 = P::lane(t508, 2) + (P::lane(t508, 1) + P::lane(t508, 0));
+        let t728 = P::lane(t509, 2) + (P::lane(t509, 1) + P::lane(t509, 0));
+        let t729 = P::lane(t510, 2) + (P::lane(t510, 1) + P::lane(t510, 0));
+        let t730 = P::mul_add(base_rotation[0][0], t647, base_rotation[0][1] * t591);
+        let t731 = P::mul_add(base_rotation[1][0], t650, base_rotation[1][1] * t594);
+        let t732 = P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0));
+        // mass matrix M_b that couples the base acceleration
+        let t733 = P::load(&prepared[69]);
+        let t734 = mul_add(t306, t655, t273 * t603);
+        let t735 = mul_add(t307, t655, t274 * t603);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t736 = mul_sub(t269, t278, t270 * t277);
+        let t737 = mul_sub(t270, t276, t268 * t278);
+        let t738 = mul_sub(t268, t277, t269 * t276);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t739 = mul_add(t423, t572, mul_add(t452, t485, t306 * t446));
+        let t740 = mul_add(t424, t572, mul_add(t453, t485, t307 * t446));
+        let t741 = mul_add(t425, t572, mul_add(t454, t485, t308 * t446));
+        let t742 = mul_add(t423, t573, mul_add(t452, t486, t306 * t447));
+        let t743 = mul_add(t424, t573, mul_add(t453, t486, t307 * t447));
+        let t744 = mul_add(t425, t573, mul_add(t454, t486, t308 * t447));
+        let t745 = P::triple([P::lane(t524, 2), P::lane(t526, 2), P::lane(t528, 2)]);
+        let t746 = P::triple([P::lane(t530, 2), P::lane(t531, 2), P::lane(t532, 2)]);
+        let t747 = P::triple([P::lane(t525, 2), P::lane(t527, 2), P::lane(t529, 2)]);
+        // mass matrix M_p of the platform
+        let t748 = platform_rotation[0][1] * prepared[61][1];
+        let t749 = platform_rotation[1][1] * prepared[61][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t750 = t419 - t662;
+        let t751 = P::triple([P::lane(t596, 0), P::lane(t597, 0), P::lane(t598, 0)]);
+        let t752 = P::triple([P::lane(t596, 1), P::lane(t597, 1), P::lane(t598, 1)]);
+        let t753 = P::triple([P::lane(t534, 2), P::lane(t535, 2), P::lane(t536, 2)]);
+        let t754 = t542 - t663;
+        let t755 = t664 + t665 - t666;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t756 = mul_add(t423, t574, mul_add(t452, t487, t306 * t448));
+        let t757 = mul_add(t424, t574, mul_add(t453, t487, t307 * t448));
+        let t758 = mul_add(t425, t574, mul_add(t454, t487, t308 * t448));
+        let t759 = P::triple([P::lane(t548, 2), P::lane(t549, 2), P::lane(t550, 2)]);
+        let t760 = P::triple([P::lane(t604, 0), P::lane(t605, 0), P::lane(t606, 0)]);
+        let t761 = P::triple([P::lane(t604, 1), P::lane(t605, 1), P::lane(t606, 1)]);
+        let t762 = t682 + t683 + t747;
+        // Coriolis matrix C_b, natural factorisation
+        let t763 = P::mul_add(base_rotation[2][0], t699, base_rotation[2][1] * t646);
+        let t764 = P::mul_add(base_rotation[1][0], t699, base_rotation[1][1] * t646);
+        let t765 = P::mul_add(base_rotation[0][0], t699, base_rotation[0][1] * t646);
+        let t766 = P::lane(t555, 2) + (P::lane(t555, 1) + P::lane(t555, 0));
+        let t767 = base_velocity[3] * P::lane(t483, 0);
+        let t768 = base_velocity[3] * P::lane(t483, 1);
+        // part of the legs' mass matrix on the side of the axes
+        let t769 = mul_add(t308, t158 * t308, t275 * (t136 * t275));
+        let t770 = t687 + t688 + t753;
+        let t771 = P::triple([P::lane(t556, 2), P::lane(t557, 2), P::lane(t558, 2)]);
+        let t772 = P::lane(t608, 1) + P::lane(t608, 0);
+        let t773 = P::triple([P::lane(t559, 2), P::lane(t561, 2), P::lane(t562, 2)]);
+        let t774 = P::triple([P::lane(t563, 2), P::lane(t564, 2), P::lane(t565, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t775 = mul_add(t206, t585, t184 * t522);
+        let t776 = mul_add(t229, t585, t207 * t522);
+        let t777 = mul_add(t230, t585, t208 * t522);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t778 = mul_add(P::splat(base_rotation[0][2]), t725, t696);
+        let t779 = mul_add(P::splat(base_rotation[1][2]), t725, t697);
+        let t780 = mul_add(P::splat(base_rotation[2][2]), t725, t698);
+        // Coriolis matrix C_b, natural factorisation
+        let t781 = P::mul_add(base_rotation[0][0], t726, base_rotation[0][1] * t656);
+        let t782 = P::mul_add(base_rotation[1][0], t727, base_rotation[1][1] * t657);
+        let t783 = P::mul_add(base_rotation[2][0], t728, base_rotation[2][1] * t658);
+        let t784 = P::lane(t578, 2) + (P::lane(t578, 1) + P::lane(t578, 0));
+        let t785 = P::mul_add(base_rotation[2][0], t701, base_rotation[2][1] * t652);
+        let t786 = P::lane(t579, 2) + (P::lane(t579, 1) + P::lane(t579, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t787 = t705 + t706 + t771;
+        let t788 = t707 + t708 + t773;
+        let t789 = t709 + t710 + t774;
+        // Coriolis matrix C_b, natural factorisation
+        let t790 = P::lane(t587, 2) + (P::lane(t587, 1) + P::lane(t587, 0));
+        let t791 = P::lane(t588, 2) + (P::lane(t588, 1) + P::lane(t588, 0));
+        let t792 = P::lane(t589, 2) + (P::lane(t589, 1) + P::lane(t589, 0));
+        let t793 = t730 + P::mul_sub(base_rotation[0][2], t648, t649);
+        let t794 = t731 + P::mul_sub(base_rotation[1][2], t651, t653);
+        // mass matrix M_p of the platform
+        let t795 = platform_rotation[0][1] * prepared[68][0];
+        let t796 = P::mul_add(platform_rotation[0][0], prepared[68][0], t748);
+        let t797 = platform_rotation[1][1] * prepared[68][0];
+        let t798 = P::mul_add(platform_rotation[1][0], prepared[68][0], t749);
+        // part of the legs' mass matrix on the side of the axes
+        let t799 = P::triple([P::lane(t596, 2), P::lane(t597, 2), P::lane(t598, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t800 = mul_add(t206, t628, t184 * t586);
+        let t801 = mul_add(t229, t628, t207 * t586);
+        let t802 = mul_add(t230, t628, t208 * t586);
+        let t803 = mul_add(t306, t733, t273 * t671);
+        let t804 = mul_add(t307, t733, t274 * t671);
+        let t805 = mul_add(t308, t628, t275 * t586);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t806 = mul_add(t273, t629, t739);
+        let t807 = mul_add(t274, t629, t740);
+        let t808 = mul_add(t275, t629, t741);
+        let t809 = mul_add(t273, t630, t742);
+        let t810 = mul_add(t274, t630, t743);
+        let t811 = mul_add(t275, t630, t744);
+        let t812 = P::triple([P::lane(t604, 2), P::lane(t605, 2), P::lane(t606, 2)]);
+        let t813 = neg_mul_add(P::splat(base_rotation[0][0]), t762, t678 + t679 + t745);
+        let t814 = neg_mul_add(P::splat(base_rotation[2][0]), t762, t680 + t681 + t746);
+        // Coriolis matrix of the legs
+        let t815 = mul_add(t306, t736, t273 * t672);
+        let t816 = mul_add(t306, t737, t273 * t673);
+        let t817 = mul_add(t306, t738, t273 * t674);
+        let t818 = mul_add(t307, t736, t274 * t672);
+        let t819 = mul_add(t307, t737, t274 * t673);
+        let t820 = mul_add(t307, t738, t274 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t821 = P::mul_add(base_rotation[0][0], t650, base_rotation[0][1] * t594);
+        let t822 = P::mul_add(base_rotation[0][0], t701, base_rotation[0][1] * t652);
+        let t823 = P::mul_add(base_rotation[1][0], t647, base_rotation[1][1] * t591);
+        let t824 = P::mul_add(base_rotation[1][0], t701, base_rotation[1][1] * t652);
+        let t825 = P::mul_add(base_rotation[0][0], t766, base_rotation[0][1] * t704);
+        let t826 = P::mul_sub(base_velocity[4], P::lane(t445, 0), t767);
+        let t827 = P::mul_add(base_rotation[1][0], t766, base_rotation[1][1] * t704);
+        let t828 = P::mul_sub(base_velocity[4], P::lane(t445, 1), t768);
+        let t829 = P::mul_add(base_rotation[2][0], t766, base_rotation[2][1] * t704);
+        // mass matrix M_p of the platform
+        let t830 = platform_rotation[2][1] * prepared[61][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t831 = t751 + t752 + t799;
+        let t832 = P::triple([P::lane(t659, 0), P::lane(t660, 0), P::lane(t661, 0)]);
+        let t833 = P::triple([P::lane(t659, 1), P::lane(t660, 1), P::lane(t661, 1)]);
+        let t834 = P::splat(base_rotation[1][1]) * t770;
+        let t835 = P::splat(base_rotation[2][1]) * t770;
+        let t836 = P::triple([P::lane(t690, 1), P::lane(t607, 2), P::lane(t608, 2)]);
+        let t837 = P::triple([c(0.0), P::lane(t607, 1) + P::lane(t607, 0), t772]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t838 = mul_add(t273, t631, t756);
+        let t839 = mul_add(t274, t631, t757);
+        let t840 = mul_add(t275, t631, t758);
+        let t841 = P::triple([P::lane(t675, 0), P::lane(t676, 0), P::lane(t677, 0)]);
+        let t842 = P::triple([P::lane(t675, 1), P::lane(t676, 1), P::lane(t677, 1)]);
+        let t843 = t760 + t761 + t812;
+        let t844 = neg_mul_add(P::splat(base_rotation[1][0]), t762, t693 + t694 + t759);
+        // Coriolis matrix of the legs
+        let t845 = mul_add(t308, t736, t275 * t672);
+        let t846 = mul_add(t308, t737, t275 * t673);
+        let t847 = mul_add(t308, t738, t275 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t848 = t763 + P::mul_add(base_rotation[2][2], t700, t684);
+        let t849 = t764 + P::mul_add(base_rotation[1][2], t700, t685);
+        let t850 = t765 + P::mul_add(base_rotation[0][2], t700, t686);
+        let t851 = mul_add(t408, P::splat(t784), t370 * P::splat(t729));
+        // part of the legs' mass matrix on the side of the axes
+        let t852 = P::triple([P::lane(t689, 2), P::lane(t689, 0), P::lane(t689, 1)]);
+        // velocity of the platform origin relative to the base
+        let t853 = P::triple([t68, t74, t69]);
+        // Coriolis matrix C_b, natural factorisation
+        let t854 = base_velocity[4] * P::lane(t480, 1);
+        let t855 = base_velocity[4] * P::lane(t480, 2);
+        let t856 = mul_add(t408, P::splat(t786), t370 * P::splat(t732));
+        // part of the legs' mass matrix on the side of the axes
+        let t857 = P::triple([P::lane(t691, 2), P::lane(t691, 0), P::lane(t691, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t858 = base_velocity[5] * P::lane(t445, 0);
+        let t859 = base_velocity[5] * P::lane(t445, 2);
+        let t860 = P::lane(t619, 2) + (P::lane(t619, 1) + P::lane(t619, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t861 = P::splat(base_rotation[0][1]) * t770;
+        let t862 = t690 - t787;
+        let t863 = t836 + t837;
+        // mass matrix M_b that couples the base acceleration
+        let t864 = mul_add(t206, t523, t184 * t481);
+        let t865 = mul_add(t229, t523, t207 * t481);
+        let t866 = mul_add(t230, t523, t208 * t481);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t867 = mul_add(P::splat(base_velocity[4]), t666, t778);
+        let t868 = mul_add(P::splat(base_velocity[5]), t662, t779);
+        let t869 = mul_add(P::splat(base_velocity[3]), t663, t780);
+        // Coriolis matrix C_b, natural factorisation
+        let t870 = P::mul_add(base_rotation[0][2], t790, t781);
+        let t871 = P::mul_add(base_rotation[1][2], t791, t782);
+        let t872 = P::mul_add(base_rotation[2][2], t792, t783);
+        let t873 = P::lane(t644, 2) + (P::lane(t644, 1) + P::lane(t644, 0));
+        let t874 = t793 + t794;
+        let t875 = P::lane(t645, 2) + (P::lane(t645, 1) + P::lane(t645, 0));
+        // mass matrix M_p of the platform
+        let t876 = P::mul_add(platform_rotation[0][0], prepared[61][0], t795);
+        let t877 = P::mul_add(platform_rotation[1][0], prepared[61][0], t797);
+        // mass matrix M_b that couples the base acceleration
+        let t878 = mul_add(t206, t655, t184 * t603);
+        let t879 = mul_add(t229, t655, t207 * t603);
+        let t880 = mul_add(t230, t655, t208 * t603);
+        let t881 = mul_add(t308, t655, t275 * t603);
+        let t882 = P::lane(t715, 1) + P::lane(t715, 0);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t883 = P::triple([P::lane(t716, 0), P::lane(t717, 0), P::lane(t718, 0)]);
+        let t884 = P::triple([P::lane(t716, 1), P::lane(t717, 1), P::lane(t718, 1)]);
+        let t885 = P::triple([P::lane(t719, 0), P::lane(t720, 0), P::lane(t721, 0)]);
+        let t886 = P::triple([P::lane(t719, 1), P::lane(t720, 1), P::lane(t721, 1)]);
+        let t887 = P::triple([P::lane(t722, 0), P::lane(t723, 0), P::lane(t724, 0)]);
+        let t888 = P::triple([P::lane(t722, 1), P::lane(t723, 1), P::lane(t724, 1)]);
+        // mass matrix M_p of the platform
+        let t889 = P::mul_add(platform_rotation[0][2], prepared[68][1], t796);
+        let t890 = platform_rotation[0][1] * prepared[68][1];
+        let t891 = P::mul_add(platform_rotation[1][2], prepared[68][1], t798);
+        let t892 = platform_rotation[1][1] * prepared[68][1];
+        let t893 = platform_rotation[2][1] * prepared[68][0];
+        let t894 = P::mul_add(platform_rotation[2][0], prepared[68][0], t830);
+        // part of the legs' mass matrix on the side of the axes
+        let t895 = P::triple([P::lane(t659, 2), P::lane(t660, 2), P::lane(t661, 2)]);
+        let t896 = mul_add(P::splat(base_rotation[1][0]), t831, t834);
+        let t897 = mul_add(P::splat(base_rotation[2][0]), t831, t835);
+        let t898 = P::triple([P::lane(t662, 0), P::lane(t663, 0), P::lane(t666, 0)]);
+        let t899 = P::triple([P::lane(t787, 0), P::lane(t788, 0), P::lane(t789, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t900 = mul_add(t306, t547, t273 * t484);
+        let t901 = mul_add(t307, t547, t274 * t484);
+        let t902 = mul_add(t308, t547, t275 * t484);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t903 = P::triple([P::lane(t675, 2), P::lane(t676, 2), P::lane(t677, 2)]);
+        let t904 = mul_sub(P::splat(base_rotation[0][1]), t843, t813);
+        let t905 = mul_sub(P::splat(base_rotation[2][1]), t843, t814);
+        // Coriolis matrix C_b, natural factorisation
+        let t906 = P::mul_add(base_rotation[1][0], t726, base_rotation[1][1] * t656);
+        let t907 = P::mul_add(base_rotation[2][0], t726, base_rotation[2][1] * t656);
+        let t908 = P::mul_add(base_rotation[0][0], t727, base_rotation[0][1] * t657);
+        let t909 = P::mul_add(base_rotation[2][0], t727, base_rotation[2][1] * t657);
+        let t910 = P::mul_add(base_rotation[0][0], t728, base_rotation[0][1] * t658);
+        let t911 = P::mul_add(base_rotation[1][0], t728, base_rotation[1][1] * t658);
+        // part of the legs' mass matrix on the side of the axes
+        let t912 = P::triple([P::lane(t689, 1), P::lane(t689, 2), P::lane(t689, 0)]);
+        // velocity of the platform origin relative to the base
+        let t913 = P::triple([t74, t69, t68]);
+        // Coriolis matrix C_b, natural factorisation
+        let t914 = P::mul_add(base_rotation[0][2], t702, t822);
+        let t915 = P::mul_sub(base_velocity[5], P::lane(t483, 1), t854);
+        let t916 = P::mul_sub(base_velocity[5], P::lane(t483, 2), t855);
+        // part of the legs' mass matrix on the side of the axes
+        let t917 = P::triple([P::lane(t691, 1), P::lane(t691, 2), P::lane(t691, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t918 = P::mul_add(base_rotation[1][2], t702, t824);
+        let t919 = P::mul_sub(base_velocity[3], P::lane(t480, 0), t858);
+        let t920 = P::mul_sub(base_velocity[3], P::lane(t480, 2), t859);
+        let t921 = P::mul_sub(t74, P::lane(t692, 1), t68 * P::lane(t692, 2));
+        let t922 = P::mul_add(base_rotation[2][0], t647, base_rotation[2][1] * t591);
+        let t923 = P::mul_sub(t69, P::lane(t692, 2), t74 * P::lane(t692, 0));
+        let t924 = P::mul_add(base_rotation[2][0], t650, base_rotation[2][1] * t594);
+        let t925 = P::mul_sub(t68, P::lane(t692, 0), t69 * P::lane(t692, 1));
+        // part of the legs' mass matrix on the side of the axes
+        let t926 = mul_add(P::splat(base_rotation[0][0]), t831, t861);
+        let t927 = t832 + t833 + t895;
+        let t928 = t863 - t788;
+        // mass matrix of the legs
+        let t929 = t750 - t898;
+        let t930 = t862 - t899;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t931 = t841 + t842 + t903;
+        let t932 = mul_sub(P::splat(base_rotation[1][1]), t843, t844);
+        // Coriolis matrix of the legs
+        let t933 = mul_add(t206, t736, t184 * t672);
+        let t934 = mul_add(t206, t737, t184 * t673);
+        let t935 = mul_add(t206, t738, t184 * t674);
+        let t936 = mul_add(t230, t736, t208 * t672);
+        let t937 = mul_add(t230, t737, t208 * t673);
+        let t938 = mul_add(t230, t738, t208 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t939 = mul_sub(t912, t913, t852 * t853);
+        let t940 = t874 + (t785 + P::mul_sub(base_rotation[2][2], t702, t703));
+        let t941 = mul_sub(t913, t917, t853 * t857);
+        // mass matrix M_b that couples the base acceleration
+        let t942 = P::lane(t711, 2) + (P::lane(t711, 1) + P::lane(t711, 0));
+        let t943 = P::lane(t712, 2) + (P::lane(t712, 1) + P::lane(t712, 0));
+        let t944 = P::lane(t713, 2) + (P::lane(t713, 1) + P::lane(t713, 0));
+        let t945 = P::lane(t714, 2) + (P::lane(t714, 1) + P::lane(t714, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t946 = P::triple([P::lane(t716, 2), P::lane(t717, 2), P::lane(t718, 2)]);
+        let t947 = P::triple([P::lane(t719, 2), P::lane(t720, 2), P::lane(t721, 2)]);
+        let t948 = P::triple([P::lane(t722, 2), P::lane(t723, 2), P::lane(t724, 2)]);
+        let t949 = neg_mul_add(P::splat(base_velocity[5]), t663, t867);
+        let t950 = neg_mul_add(P::splat(base_velocity[3]), t666, t868);
+        let t951 = neg_mul_add(P::splat(base_velocity[4]), t662, t869);
+        // Coriolis matrix of the legs
+        let t952 = mul_add(t229, t736, t207 * t672);
+        let t953 = mul_add(t229, t737, t207 * t673);
+        let t954 = mul_add(t229, t738, t207 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t955 = P::mul_add(t74, P::lane(t750, 1), t870);
+        let t956 = P::mul_add(t69, P::lane(t754, 2), t871);
+        let t957 = P::mul_add(t68, P::lane(t755, 0), t872);
+        // mass matrix M_p of the platform
+        let t958 = P::mul_add(platform_rotation[0][2], prepared[68][2], t876);
+        let t959 = P::mul_add(platform_rotation[0][0], prepared[68][2], t890);
+        let t960 = P::mul_add(platform_rotation[1][2], prepared[68][2], t877);
+        let t961 = P::mul_add(platform_rotation[1][0], prepared[68][2], t892);
+        let t962 = P::mul_add(platform_rotation[2][0], prepared[61][0], t893);
+        // mass matrix M_b that couples the base acceleration
+        let t963 = mul_add(t206, t733, t184 * t671);
+        let t964 = mul_add(t229, t733, t207 * t671);
+        let t965 = mul_add(t230, t733, t208 * t671);
+        let t966 = mul_add(t306, t585, t273 * t522);
+        let t967 = mul_add(t306, t523, t273 * t481);
+        let t968 = mul_add(t307, t585, t274 * t522);
+        let t969 = mul_add(t307, t523, t274 * t481);
+        let t970 = mul_add(t308, t585, t275 * t522);
+        let t971 = mul_add(t308, t523, t275 * t481);
+        let t972 = mul_add(t308, t733, t275 * t671);
+        let t973 = P::lane(t734, 2) + (P::lane(t734, 1) + P::lane(t734, 0));
+        let t974 = P::lane(t735, 2) + (P::lane(t735, 1) + P::lane(t735, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t975 = t883 + t884 + t946;
+        let t976 = t885 + t886 + t947;
+        let t977 = t887 + t888 + t948;
+        // Coriolis matrix C_b, natural factorisation
+        let t978 = P::mul_sub(t69, P::lane(t750, 2), t74 * P::lane(t750, 0));
+        let t979 = P::mul_sub(t68, P::lane(t750, 0), t69 * P::lane(t750, 1));
+        let t980 = P::mul_sub(t74, P::lane(t754, 1), t68 * P::lane(t754, 2));
+        let t981 = P::mul_sub(t68, P::lane(t754, 0), t69 * P::lane(t754, 1));
+        let t982 = P::mul_sub(t74, P::lane(t755, 1), t68 * P::lane(t755, 2));
+        let t983 = P::mul_sub(t69, P::lane(t755, 2), t74 * P::lane(t755, 0));
+        // mass matrix M_p of the platform
+        let t984 = P::mul_add(platform_rotation[2][2], prepared[68][1], t894);
+        let t985 = platform_rotation[2][1] * prepared[68][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t986 = mul_add(P::splat(base_rotation[1][2]), t927, t896);
+        let t987 = mul_add(P::splat(base_rotation[2][2]), t927, t897);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t988 = P::triple([P::lane(t806, 0), P::lane(t807, 0), P::lane(t808, 0)]);
+        let t989 = P::triple([P::lane(t806, 1), P::lane(t807, 1), P::lane(t808, 1)]);
+        let t990 = P::triple([P::lane(t809, 0), P::lane(t810, 0), P::lane(t811, 0)]);
+        let t991 = P::triple([P::lane(t809, 1), P::lane(t810, 1), P::lane(t811, 1)]);
+        let t992 = mul_add(P::splat(base_rotation[0][2]), t931, t904);
+        let t993 = mul_add(P::splat(base_rotation[2][2]), t931, t905);
+        // Coriolis matrix of the legs
+        let t994 = P::triple([P::lane(t815, 0), P::lane(t816, 0), P::lane(t817, 0)]);
+        let t995 = P::triple([P::lane(t815, 1), P::lane(t816, 1), P::lane(t817, 1)]);
+        let t996 = P::triple([P::lane(t818, 0), P::lane(t819, 0), P::lane(t820, 0)]);
+        let t997 = P::triple([P::lane(t818, 1), P::lane(t819, 1), P::lane(t820, 1)]);
+        (
+            t7, t8, t13, t68, t69, t74, t181, t182, t183, t184, t203, t204, t205, t206, t207, t208,
+            t229, t230, t273, t274, t275, t306, t307, t308, t421, t422, t445, t451, t479, t480,
+            t483, t541, t544, t546, t625, t626, t627, t648, t651, t663, t666, t689, t690, t691,
+            t692, t715, t750, t754, t755, t769, t775, t776, t777, t788, t789, t790, t791, t792,
+            t793, t794, t800, t801, t802, t803, t804, t805, t806, t807, t808, t809, t810, t811,
+            t815, t816, t817, t818, t819, t820, t821, t823, t825, t826, t827, t828, t829, t838,
+            t839, t840, t845, t846, t847, t848, t849, t850, t851, t856, t860, t862, t863, t864,
+            t865, t866, t873, t874, t875, t878, t879, t880, t881, t882, t889, t891, t900, t901,
+            t902, t906, t907, t908, t909, t910, t911, t914, t915, t916, t918, t919, t920, t921,
+            t922, t923, t924, t925, t926, t927, t928, t929, t930, t931, t932, t933, t934, t935,
+            t936, t937, t938, t939, t940, t941, t942, t943, t944, t945, t949, t950, t951, t952,
+            t953, t954, t955, t956, t957, t958, t959, t960, t961, t962, t963, t964, t965, t966,
+            t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977, t978, t979, t980,
+            t981, t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992, t993, t994,
+            t995, t996, t997,
+        )
+    };
+    {
+        // Coriolis matrix C_b, natural factorisation
+        let t998 = P::triple([t793, P::mul_add(base_rotation[0][2], t651, t821), t914]);
+        let t999 = P::triple([P::mul_add(base_rotation[1][2], t648, t823), t794, t918]);
+        let t1000 = t922 + P::mul_sub(base_rotation[2][2], t648, t826);
+        let t1001 = t924 + P::mul_sub(base_rotation[2][2], t651, t828);
+        // part of the legs' mass matrix on the side of the axes
+        let t1002 = mul_add(P::splat(base_rotation[0][2]), t927, t926);
+        let t1003 = P::triple([P::lane(t690, 2), P::lane(t863, 2), P::lane(t769, 2)]);
+        let t1004 = P::triple([c(0.0), c(0.0), P::lane(t769, 1) + P::lane(t769, 0)]);
+        // their moment by platform joint and Hooke joint
+        let t1005 = -t422;
+        // mass matrix M_b that couples the base acceleration
+        let t1006 = P::lane(t775, 2) + (P::lane(t775, 1) + P::lane(t775, 0));
+        let t1007 = P::lane(t776, 2) + (P::lane(t776, 1) + P::lane(t776, 0));
+        let t1008 = P::lane(t777, 2) + (P::lane(t777, 1) + P::lane(t777, 0));
+        let t1009 = base_rotation[1][1] * (P::lane(t715, 2) + t882);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1010 = P::triple([P::lane(t838, 0), P::lane(t839, 0), P::lane(t840, 0)]);
+        let t1011 = P::triple([P::lane(t838, 1), P::lane(t839, 1), P::lane(t840, 1)]);
+        let t1012 = mul_add(P::splat(base_rotation[1][2]), t931, t932);
+        // Coriolis matrix of the legs
+        let t1013 = P::triple([P::lane(t845, 0), P::lane(t846, 0), P::lane(t847, 0)]);
+        let t1014 = P::triple([P::lane(t845, 1), P::lane(t846, 1), P::lane(t847, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1015 = mul_add(t451, P::splat(t873), t851) + t939;
+        let t1016 = mul_add(t451, P::splat(t875), t856) + t941;
+        // mass matrix M_p of the platform
+        let t1017 = platform_rotation[2][1] * prepared[70][1];
+        let t1018 = platform_rotation[1][1] * prepared[70][1];
+        let t1019 = platform_rotation[0][1] * prepared[70][1];
+        // mass matrix M_b that couples the base acceleration
+        let t1020 = base_rotation[1][0] * t973;
+        let t1021 = base_rotation[2][0] * t973;
+        let t1022 = base_rotation[2][0] * t974;
+        let t1023 = P::triple([P::lane(t715, 2), t1005, P::lane(t715, 2)]);
+        // mass matrix M_p of the platform
+        let t1024 = P::mul_add(platform_rotation[0][0], t958, platform_rotation[0][1] * t889);
+        let t1025 = P::mul_add(platform_rotation[0][2], prepared[61][2], t959);
+        let t1026 = P::mul_add(platform_rotation[1][0], t960, platform_rotation[1][1] * t891);
+        let t1027 = P::mul_add(platform_rotation[1][2], prepared[61][2], t961);
+        let t1028 = P::mul_add(platform_rotation[2][2], prepared[68][2], t962);
+        let t1029 = P::mul_add(platform_rotation[2][0], prepared[68][2], t985);
+        // mass matrix M_b that couples the base acceleration
+        let t1030 = platform_rotation[2][1] * prepared[74][1];
+        let t1031 = platform_rotation[1][1] * prepared[74][1];
+        let t1032 = platform_rotation[0][1] * prepared[74][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t1033 = -P::lane(t666, 1);
+        let t1034 = -P::lane(t663, 1);
+        let t1035 = -P::lane(t789, 1);
+        let t1036 = -P::lane(t788, 1);
+        // mass matrix M_b that couples the base acceleration
+        let t1037 = P::lane(t803, 2) + (P::lane(t803, 1) + P::lane(t803, 0));
+        let t1038 = P::lane(t804, 2) + (P::lane(t804, 1) + P::lane(t804, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1039 = P::triple([P::lane(t806, 2), P::lane(t807, 2), P::lane(t808, 2)]);
+        let t1040 = P::triple([P::lane(t809, 2), P::lane(t810, 2), P::lane(t811, 2)]);
+        // Coriolis matrix of the legs
+        let t1041 = P::triple([P::lane(t815, 2), P::lane(t816, 2), P::lane(t817, 2)]);
+        let t1042 = P::triple([P::lane(t818, 2), P::lane(t819, 2), P::lane(t820, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1043 = t978 + (t906 + P::mul_sub(base_rotation[1][2], t790, t848));
+        let t1044 = t979 + (t907 + P::mul_add(base_rotation[2][2], t790, t849));
+        let t1045 = t980 + (t908 + P::mul_add(base_rotation[0][2], t791, t848));
+        let t1046 = t981 + (t909 + P::mul_sub(base_rotation[2][2], t791, t850));
+        let t1047 = t982 + (t910 + P::mul_sub(base_rotation[0][2], t792, t849));
+        let t1048 = t983 + (t911 + P::mul_add(base_rotation[1][2], t792, t850));
+        let t1049 = P::mul_add(base_rotation[0][2], t860, t825) + t921 + t1000;
+        let t1050 = P::mul_add(base_rotation[1][2], t860, t827) + t923 + t1001;
+        let t1051 = P::mul_add(base_rotation[2][2], t860, t829) + t925 - t874;
+        // mass matrix M_b that couples the base acceleration
+        let t1052 = P::lane(t800, 2) + (P::lane(t800, 1) + P::lane(t800, 0));
+        let t1053 = P::lane(t801, 2) + (P::lane(t801, 1) + P::lane(t801, 0));
+        let t1054 = P::lane(t802, 2) + (P::lane(t802, 1) + P::lane(t802, 0));
+        let t1055 = P::lane(t805, 2) + (P::lane(t805, 1) + P::lane(t805, 0));
+        // mass matrix of the legs
+        let t1056 = P::triple([P::lane(t929, 1), t1034, P::lane(t754, 2)]);
+        let t1057 = P::triple([P::lane(t930, 1), t1036, P::lane(t928, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1058 = P::mul_add(base_rotation[0][0], t1006, base_rotation[0][1] * t942);
+        let t1059 = P::mul_add(base_rotation[1][0], t1007, base_rotation[1][1] * t943);
+        let t1060 = P::mul_add(base_rotation[2][0], t1008, base_rotation[2][1] * t944);
+        let t1061 = P::neg_mul_add(t13, P::lane(t689, 1), P::lane(t862, 0));
+        let t1062 = P::mul_add(base_rotation[0][0], t973, base_rotation[0][1] * t945);
+        let t1063 = P::neg_mul_add(t8, P::lane(t689, 2), P::lane(t862, 1));
+        let t1064 = P::neg_mul_add(t7, P::lane(t689, 0), P::lane(t862, 2));
+        // their moment by platform joint and Hooke joint
+        let t1065 = -P::lane(t421, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t1066 = P::mul_add(base_rotation[1][0], t974, t1009);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1067 = t988 + t989 + t1039;
+        let t1068 = t990 + t991 + t1040;
+        let t1069 = P::triple([P::lane(t838, 2), P::lane(t839, 2), P::lane(t840, 2)]);
+        let t1070 = mul_add(P::splat(base_velocity[4]), t987, t992);
+        let t1071 = mul_add(P::splat(base_velocity[3]), t986, t993);
+        // Coriolis matrix of the legs
+        let t1072 = P::triple([P::lane(t845, 2), P::lane(t846, 2), P::lane(t847, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1073 = t1015 + (t998 - P::triple([t940, t915, t916]));
+        let t1074 = t1016 + (t999 - P::triple([t919, t940, t920]));
+        // mass matrix M_p of the platform
+        let t1075 = P::mul_add(platform_rotation[2][0], prepared[70][0], t1017);
+        let t1076 = P::mul_add(platform_rotation[1][0], prepared[70][0], t1018);
+        let t1077 = P::mul_add(platform_rotation[0][0], prepared[70][0], t1019);
+        // part of the legs' mass matrix on the side of the axes
+        let t1078 = t1003 + t1004 - t789;
+        // mass matrix of the legs
+        let t1079 = t1056 + P::triple([c(0.0), P::lane(t754, 1), t1033]);
+        let t1080 = t1057 + P::triple([c(0.0), P::lane(t928, 1), t1035]);
+        // mass matrix M_b that couples the base acceleration
+        let t1081 = P::lane(t864, 2) + (P::lane(t864, 1) + P::lane(t864, 0));
+        let t1082 = P::lane(t865, 2) + (P::lane(t865, 1) + P::lane(t865, 0));
+        let t1083 = P::lane(t866, 2) + (P::lane(t866, 1) + P::lane(t866, 0));
+        // their moment by platform joint and Hooke joint
+        let t1084 = P::triple([t1065, t1020, t1021]);
+        // constant and copied elements
+        let t1085 = P::triple([platform_rotation[2][2], base_rotation[1][1], base_rotation[2][1]]);
+        // mass matrix M_b that couples the base acceleration
+        let t1086 = P::lane(t483, 1) + P::lane(t445, 0);
+        let t1087 = P::mul_sub(t8, P::lane(t691, 2), t13 * P::lane(t691, 0));
+        let t1088 = P::mul_sub(t13, P::lane(t691, 1), t7 * P::lane(t691, 2));
+        let t1089 = P::mul_sub(t7, P::lane(t691, 0), t8 * P::lane(t691, 1));
+        let t1090 = P::triple([base_rotation[0][0] * t974, t1065, t1022]);
+        // constant and copied elements
+        let t1091 = P::triple([base_rotation[0][1], platform_rotation[2][2], base_rotation[2][1]]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1092 = t1010 + t1011 + t1069;
+        let t1093 = mul_add(P::splat(base_velocity[5]), t1002, t1012);
+        // Coriolis matrix of the legs
+        let t1094 = P::triple([P::lane(t933, 0), P::lane(t934, 0), P::lane(t935, 0)]);
+        let t1095 = P::triple([P::lane(t933, 1), P::lane(t934, 1), P::lane(t935, 1)]);
+        let t1096 = P::triple([P::lane(t936, 0), P::lane(t937, 0), P::lane(t938, 0)]);
+        let t1097 = P::triple([P::lane(t936, 1), P::lane(t937, 1), P::lane(t938, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1098 = P::mul_add(platform_rotation[2][0], prepared[74][2], t1030);
+        let t1099 = P::mul_add(platform_rotation[1][0], prepared[74][2], t1031);
+        let t1100 = P::mul_add(platform_rotation[0][0], prepared[74][2], t1032);
+        let t1101 = base_rotation[1][0] * t1006;
+        let t1102 = base_rotation[2][0] * t1006;
+        let t1103 = base_rotation[1][1] * t942;
+        let t1104 = base_rotation[2][1] * t942;
+        let t1105 = base_rotation[2][0] * t1007;
+        let t1106 = base_rotation[2][1] * t943;
+        let t1107 = base_rotation[1][0] * t1008;
+        let t1108 = base_rotation[1][1] * t944;
+        // their moment by platform joint and Hooke joint
+        let t1109 = mul_add(t1085, P::triple([t1005, t945, t945]), t1084);
+        // mass matrix M_b that couples the base acceleration
+        let t1110 = base_rotation[2][2] * t1037;
+        let t1111 = mul_add(t1023 + P::triple([t882, c(0.0), t882]), t1091, t1090);
+        let t1112 = base_rotation[2][2] * t1038;
+        // Coriolis matrix of the legs
+        let t1113 = P::triple([P::lane(t952, 0), P::lane(t953, 0), P::lane(t954, 0)]);
+        let t1114 = P::triple([P::lane(t952, 1), P::lane(t953, 1), P::lane(t954, 1)]);
+        // platform origin seen from the base
+        let t1115 = P::triple([t13, t8, t7]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1116 = P::triple([P::lane(t949, 1), P::lane(t949, 2), P::lane(t949, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1117 = P::triple([P::neg_mul_add(t68, P::lane(t750, 2), t955), t1043, t1044]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1118 = P::triple([P::lane(t950, 1), P::lane(t950, 2), P::lane(t950, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1119 = P::triple([t1045, P::neg_mul_add(t74, P::lane(t754, 0), t956), t1046]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1120 = P::triple([P::lane(t951, 1), P::lane(t951, 2), P::lane(t951, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1121 = P::triple([t1047, t1048, P::neg_mul_add(t69, P::lane(t755, 1), t957)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1122 = P::triple([P::lane(t975, 1), P::lane(t975, 2), P::lane(t975, 0)]);
+        let t1123 = P::triple([P::lane(t976, 1), P::lane(t976, 2), P::lane(t976, 0)]);
+        let t1124 = P::triple([P::lane(t977, 1), P::lane(t977, 2), P::lane(t977, 0)]);
+        // mass matrix M_p of the platform
+        let t1125 = P::mul_add(platform_rotation[0][2], t1025, t1024);
+        let t1126 = P::mul_add(platform_rotation[2][0], t958, platform_rotation[2][1] * t889);
+        let t1127 = P::mul_add(platform_rotation[1][2], t1027, t1026);
+        let t1128 = P::mul_add(platform_rotation[2][0], t1028, platform_rotation[2][1] * t984);
+        let t1129 = P::mul_add(platform_rotation[2][2], prepared[61][2], t1029);
+        // mass matrix M_b that couples the base acceleration
+        let t1130 = P::lane(t878, 2) + (P::lane(t878, 1) + P::lane(t878, 0));
+        let t1131 = P::lane(t879, 2) + (P::lane(t879, 1) + P::lane(t879, 0));
+        let t1132 = P::lane(t880, 2) + (P::lane(t880, 1) + P::lane(t880, 0));
+        let t1133 = P::lane(t881, 2) + (P::lane(t881, 1) + P::lane(t881, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1134 = t541 - t1002;
+        let t1135 = t546 - t987;
+        // Coriolis matrix of the legs
+        let t1136 = t1067 + (t994 + t995 + t1041);
+        let t1137 = t1068 + (t996 + t997 + t1042);
+        // Coriolis matrix C_b, natural factorisation
+        let t1138 = neg_mul_add(t1115, t1124, P::triple([t1049, t1050, t1051]));
+        // mass matrix M_p of the platform
+        let t1139 = P::mul_add(platform_rotation[1][0], t958, platform_rotation[1][1] * t889);
+        let t1140 = P::mul_add(platform_rotation[2][0], t960, platform_rotation[2][1] * t891);
+        // mass matrix M_b that couples the base acceleration
+        let t1141 = P::lane(t900, 2) + (P::lane(t900, 1) + P::lane(t900, 0));
+        let t1142 = P::lane(t901, 2) + (P::lane(t901, 1) + P::lane(t901, 0));
+        let t1143 = P::lane(t902, 2) + (P::lane(t902, 1) + P::lane(t902, 0));
+        let t1144 = P::mul_add(base_rotation[0][2], t1037, t1062);
+        let t1145 = P::mul_add(t13, P::lane(t689, 0), t1063);
+        let t1146 = P::mul_add(t8, P::lane(t689, 1), t1064);
+        let t1147 = -t1086;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1148 = neg_mul_add(P::splat(base_velocity[5]), t986, t1070);
+        let t1149 = neg_mul_add(P::splat(base_velocity[4]), t1002, t1071);
+        // Coriolis matrix of the legs
+        let t1150 = P::triple([P::lane(t933, 2), P::lane(t934, 2), P::lane(t935, 2)]);
+        let t1151 = P::triple([P::lane(t936, 2), P::lane(t937, 2), P::lane(t938, 2)]);
+        let t1152 = t1092 + (t1013 + t1014 + t1072);
+        // mass matrix M_p of the platform
+        let t1153 = P::mul_add(platform_rotation[2][2], prepared[70][2], t1075);
+        let t1154 = P::mul_add(platform_rotation[1][2], prepared[70][2], t1076);
+        let t1155 = P::mul_add(platform_rotation[0][2], prepared[70][2], t1077);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1156 = P::splat(t8) + t203;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1157 = P::splat(t8) + t181;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1158 = P::splat(t7) + t204;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1159 = P::splat(t7) + t182;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1160 = P::splat(t13) + t205;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1161 = P::splat(t13) + t183;
+        // part of the legs' mass matrix on the side of the axes
+        let t1162 = t544 - t986;
+        // leg 3: rod's inertial coupling between its ends
+        let t1163 = P::triple([prepared[75][0], t1101, t1102]);
+        // leg 6: rod's inertial coupling between its ends
+        let t1164 = P::triple([prepared[75][1], t1103, t1104]);
+        // mass matrix M_b that couples the base acceleration
+        let t1165 = base_rotation[2][2] * t1081;
+        let t1166 = P::triple([base_rotation[0][1] * t943, prepared[75][1], t1106]);
+        let t1167 = base_rotation[2][2] * t1082;
+        let t1168 = P::triple([base_rotation[0][1] * t944, t1108, prepared[75][1]]);
+        let t1169 = base_rotation[1][2] * t1083;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1170 = neg_mul_add(P::splat(base_velocity[3]), t987, t1093);
+        // Coriolis matrix of the legs
+        let t1171 = P::triple([P::lane(t952, 2), P::lane(t953, 2), P::lane(t954, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1172 = P::mul_add(base_rotation[2][0], t1130, base_rotation[2][1] * t1052);
+        let t1173 = P::mul_add(base_rotation[0][0], t1131, base_rotation[0][1] * t1053);
+        let t1174 = P::mul_add(base_rotation[1][0], t1132, base_rotation[1][1] * t1054);
+        let t1175 = P::mul_add(platform_rotation[2][2], prepared[74][3], t1098);
+        let t1176 = P::mul_add(platform_rotation[1][2], prepared[74][3], t1099);
+        let t1177 = P::mul_add(platform_rotation[0][2], prepared[74][3], t1100);
+        let t1178 = P::mul_add(base_rotation[0][0], t1133, base_rotation[0][1] * t1055);
+        let t1179 = P::mul_add(base_rotation[1][0], t1133, base_rotation[1][1] * t1055);
+        let t1180 = P::triple([base_rotation[0][0] * t1007, prepared[75][0], t1105]) + t1166;
+        let t1181 = P::triple([base_rotation[0][0] * t1008, t1107, prepared[75][0]]) + t1168;
+        // platform origin seen from the base
+        let t1182 = P::triple([t7, t13, t8]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1183 = P::triple([P::lane(t949, 2), P::lane(t949, 0), P::lane(t949, 1)]);
+        let t1184 = P::triple([P::lane(t950, 2), P::lane(t950, 0), P::lane(t950, 1)]);
+        let t1185 = P::triple([P::lane(t951, 2), P::lane(t951, 0), P::lane(t951, 1)]);
+        let t1186 = P::triple([P::lane(t975, 2), P::lane(t975, 0), P::lane(t975, 1)]);
+        let t1187 = P::triple([P::lane(t976, 2), P::lane(t976, 0), P::lane(t976, 1)]);
+        let t1188 = P::triple([P::lane(t977, 2), P::lane(t977, 0), P::lane(t977, 1)]);
+        // mass matrix M_p of the platform
+        let t1189 = P::mul_add(platform_rotation[2][2], t1025, t1126);
+        let t1190 = P::mul_add(platform_rotation[2][2], t1129, t1128);
+        // Coriolis matrix C_p, natural factorisation
+        let t1191 = P::mul_sub(prepared[74][0], c(0.5), t1127);
+        let t1192 = P::mul_sub(prepared[74][0], c(0.5), t1125);
+        // mass matrix M_b that couples the base acceleration
+        let t1193 = P::lane(t963, 2) + (P::lane(t963, 1) + P::lane(t963, 0));
+        let t1194 = P::mul_sub(t7, P::lane(t750, 0), t8 * P::lane(t750, 1));
+        let t1195 = P::mul_sub(t13, P::lane(t754, 1), t7 * P::lane(t754, 2));
+        let t1196 = P::lane(t964, 2) + (P::lane(t964, 1) + P::lane(t964, 0));
+        let t1197 = P::lane(t965, 2) + (P::lane(t965, 1) + P::lane(t965, 0));
+        let t1198 = P::mul_sub(t8, P::lane(t755, 2), t13 * P::lane(t755, 0));
+        let t1199 = P::lane(t966, 2) + (P::lane(t966, 1) + P::lane(t966, 0));
+        let t1200 = P::lane(t967, 2) + (P::lane(t967, 1) + P::lane(t967, 0));
+        let t1201 = P::lane(t968, 2) + (P::lane(t968, 1) + P::lane(t968, 0));
+        let t1202 = P::lane(t969, 2) + (P::lane(t969, 1) + P::lane(t969, 0));
+        let t1203 = P::lane(t970, 2) + (P::lane(t970, 1) + P::lane(t970, 0));
+        let t1204 = P::lane(t971, 2) + (P::lane(t971, 1) + P::lane(t971, 0));
+        let t1205 = P::mul_sub(t13, P::lane(t692, 1), t7 * P::lane(t692, 2));
+        let t1206 = P::lane(t972, 2) + (P::lane(t972, 1) + P::lane(t972, 0));
+        let t1207 = P::mul_sub(t8, P::lane(t692, 2), t13 * P::lane(t692, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1208 = -P::lane(t666, 2);
+        let t1209 = -P::lane(t789, 2);
+        // their moment by platform joint and Hooke joint
+        let t1210 = -P::lane(t483, 1);
+        // mass matrix M_p of the platform
+        let t1211 = P::mul_add(platform_rotation[1][2], t1025, t1139);
+        let t1212 = P::mul_add(platform_rotation[2][2], t1027, t1140);
+        // part of the legs' mass matrix on the side of the axes
+        let t1213 = P::triple([P::lane(t625, 0), P::lane(t626, 0), P::lane(t627, 0)]);
+        let t1214 = P::triple([P::lane(t625, 1), P::lane(t626, 1), P::lane(t627, 1)]);
+        // mass matrix of the legs
+        let t1215 = P::triple([P::lane(t929, 2), P::lane(t1079, 2), t1208]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1216 = P::triple([P::lane(t625, 2), P::lane(t626, 2), P::lane(t627, 2)]);
+        // mass matrix of the legs
+        let t1217 = P::triple([P::lane(t930, 2), P::lane(t1080, 2), t1209]);
+        // mass matrix M_b that couples the base acceleration
+        let t1218 = P::lane(t750, 0) - P::mul_add(base_rotation[0][2], t1081, t1058);
+        let t1219 = P::triple([prepared[75][2], base_rotation[1][2] * t1081, t1165]);
+        let t1220 = P::lane(t754, 1) - P::mul_add(base_rotation[1][2], t1082, t1059);
+        let t1221 = P::lane(t755, 2) - P::mul_add(base_rotation[2][2], t1083, t1060);
+        let t1222 = P::mul_add(t7, P::lane(t689, 2), t1061) - t1144;
+        // their moment by platform joint and Hooke joint
+        let t1223 = P::triple([-P::lane(t445, 0), t1145, t1146]);
+        // mass matrix M_b that couples the base acceleration
+        let t1224 = P::lane(t928, 1) - t1087 - P::mul_add(base_rotation[1][2], t1038, t1066);
+        let t1225 = P::triple([P::lane(t928, 0) - t1088, t1210, P::lane(t928, 2) - t1089]);
+        // Coriolis matrix of the legs
+        let t1226 = t1148 + (t1094 + t1095 + t1150);
+        let t1227 = t1149 + (t1096 + t1097 + t1151);
+        // mass matrix M_b that couples the base acceleration
+        let t1228 = P::mul_add(base_rotation[0][0], t1130, base_rotation[0][1] * t1052);
+        let t1229 = P::mul_add(base_rotation[1][0], t1131, base_rotation[1][1] * t1053);
+        let t1230 = P::mul_add(base_rotation[2][0], t1132, base_rotation[2][1] * t1054);
+        // mass matrix of the legs
+        let t1231 = t1134 - t1213;
+        let t1232 = t1162 - t1214;
+        let t1233 = t1135 - t1216;
+        // mass matrix M_b that couples the base acceleration
+        let t1234 = t1180 + P::triple([base_rotation[0][2] * t1082, prepared[75][2], t1167]);
+        let t1235 = t1181 + P::triple([base_rotation[0][2] * t1083, t1169, prepared[75][2]]);
+        let t1236 = t1223 - (t1109 + P::triple([t1147, base_rotation[1][2] * t1037, t1110]));
+        let t1237 = t1225 - (t1111 + P::triple([base_rotation[0][2] * t1038, t1147, t1112]));
+        // Coriolis matrix of the legs
+        let t1238 = t1170 + (t1113 + t1114 + t1171);
+        // mass matrix M_b that couples the base acceleration
+        let t1239 = P::mul_sub(t13, P::lane(t750, 1), t7 * P::lane(t750, 2));
+        let t1240 = P::mul_sub(t8, P::lane(t750, 2), t13 * P::lane(t750, 0));
+        let t1241 = P::mul_add(base_rotation[1][0], t1130, base_rotation[1][1] * t1052);
+        let t1242 = P::mul_sub(t8, P::lane(t754, 2), t13 * P::lane(t754, 0));
+        let t1243 = P::mul_sub(t7, P::lane(t754, 0), t8 * P::lane(t754, 1));
+        let t1244 = P::mul_add(base_rotation[2][0], t1131, base_rotation[2][1] * t1053);
+        let t1245 = P::mul_sub(t13, P::lane(t755, 1), t7 * P::lane(t755, 2));
+        let t1246 = P::mul_add(base_rotation[0][0], t1132, base_rotation[0][1] * t1054);
+        let t1247 = P::mul_sub(t7, P::lane(t755, 0), t8 * P::lane(t755, 1));
+        let t1248 = P::mul_add(base_rotation[1][0], t1199, base_rotation[1][1] * t1141);
+        let t1249 = P::mul_add(base_rotation[2][0], t1199, base_rotation[2][1] * t1141);
+        let t1250 = P::mul_add(base_rotation[0][0], t1201, base_rotation[0][1] * t1142);
+        let t1251 = P::mul_add(base_rotation[2][0], t1201, base_rotation[2][1] * t1142);
+        let t1252 = P::mul_add(base_rotation[0][0], t1203, base_rotation[0][1] * t1143);
+        let t1253 = P::mul_add(base_rotation[1][0], t1203, base_rotation[1][1] * t1143);
+        let t1254 = P::mul_sub(t7, P::lane(t692, 0), t8 * P::lane(t692, 1));
+        let t1255 = P::mul_add(base_rotation[2][0], t1133, base_rotation[2][1] * t1055);
+        // their moment by platform joint and Hooke joint
+        let t1256 = -P::lane(t445, 1);
+        let t1257 = -P::lane(t445, 2);
+        // Coriolis matrix C_p, natural factorisation
+        let t1258 = P::mul_add(platform_velocity[5], t1191, P::lane(t1136, 1));
+        let t1259 = P::mul_sub(prepared[74][0], c(0.5), t1190);
+        let t1260 = P::mul_add(platform_velocity[5], t1189, P::lane(t1137, 2));
+        let t1261 = P::mul_add(platform_velocity[4], t1192, P::lane(t1152, 0));
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1262 = mul_sub(t230, t1158, t229 * t1160);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1263 = mul_sub(t208, t1159, t207 * t1161);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1264 = mul_sub(t206, t1160, t230 * t1156);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1265 = mul_sub(t184, t1161, t208 * t1157);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1266 = mul_sub(t229, t1156, t206 * t1158);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1267 = mul_sub(t207, t1157, t184 * t1159);
+        // mass matrix M_p of the platform
+        let t1268 = P::load(&prepared[71]);
+        // mass matrix of the legs
+        let t1269 = P::load(&prepared[72]);
+        // mass matrix M_b that couples the base acceleration
+        let t1270 = P::triple([t1218, P::lane(t750, 1), P::lane(t750, 2)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1271 = P::triple([P::lane(t754, 0), t1220, P::lane(t754, 2)]);
+        let t1272 = P::triple([P::lane(t755, 0), P::lane(t755, 1), t1221]);
+        // their moment by platform joint and Hooke joint
+        let t1273 = P::triple([-P::lane(t483, 0), t1224, -P::lane(t483, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1274 = t1148 + mul_add(t1182, t1183, neg_mul_add(t1115, t1116, t1117));
+        let t1275 = t1170 + mul_add(t1182, t1184, neg_mul_add(t1115, t1118, t1119));
+        let t1276 = t1149 + mul_add(t1182, t1185, neg_mul_add(t1115, t1120, t1121));
+        let t1277 = t1067 + mul_add(t1182, t1186, neg_mul_add(t1115, t1122, t1073));
+        let t1278 = t1068 + mul_add(t1182, t1187, neg_mul_add(t1115, t1123, t1074));
+        let t1279 = t1092 + mul_add(t1182, t1188, t1138);
+        // Coriolis matrix C_p, natural factorisation
+        let t1280 = P::mul_sub(platform_velocity[3], t1154, platform_velocity[4] * t1155);
+        let t1281 = P::mul_sub(platform_velocity[5], t1155, platform_velocity[3] * t1153);
+        let t1282 = P::mul_sub(platform_velocity[4], t1153, platform_velocity[5] * t1154);
+        let t1283 = P::mul_sub(platform_velocity[5], t1211, P::lane(t1136, 0));
+        let t1284 = P::neg_mul_add(platform_velocity[5], t1212, P::lane(t1136, 2));
+        let t1285 = P::neg_mul_add(platform_velocity[5], t1192, P::lane(t1137, 0));
+        let t1286 = P::mul_sub(platform_velocity[3], t1212, P::lane(t1137, 1));
+        let t1287 = P::neg_mul_add(platform_velocity[4], t1211, P::lane(t1152, 1));
+        let t1288 = P::mul_sub(platform_velocity[4], t1189, P::lane(t1152, 2));
+        // mass matrix of the legs
+        let t1289 = t1079 + t1268;
+        let t1290 = t1215 + P::triple([c(0.0), c(0.0), P::lane(t755, 2)]) + t1269;
+        // mass matrix M_b that couples the base acceleration
+        let t1291 = t1270 - (t1163 + t1164 + t1219);
+        let t1292 = t1271 - t1234;
+        let t1293 = t1272 - t1235;
+        let t1294 = t1236 + P::triple([t1222, t1256, t1257]);
+        let t1295 = t1237 + t1273;
+        let t1296 = P::mul_add(base_rotation[0][0], t1199, base_rotation[0][1] * t1141);
+        let t1297 = P::mul_add(base_rotation[1][0], t1201, base_rotation[1][1] * t1142);
+        let t1298 = P::mul_add(base_rotation[2][0], t1203, base_rotation[2][1] * t1143);
+        // mass of payload and platform-side leg ends
+        let t1299 = P::load(&prepared[73]);
+        // mass matrix M_p of the platform
+        let t1300 = prepared[75][3] - t1190;
+        // mass matrix M_b that couples the base acceleration
+        let t1301 = P::neg_mul_add(base_rotation[1][2], t1193, P::lane(t479, 2)) - t1241;
+        let t1302 = P::lane(t1134, 2) - t1194 - P::mul_add(base_rotation[2][2], t1193, t1172);
+        let t1303 = P::lane(t1162, 0) - t1195 - P::mul_add(base_rotation[0][2], t1196, t1173);
+        let t1304 = P::neg_mul_add(base_rotation[2][2], t1196, P::lane(t479, 0)) - t1244;
+        let t1305 = P::neg_mul_add(base_rotation[0][2], t1197, P::lane(t479, 1)) - t1246;
+        let t1306 = P::lane(t1135, 1) - t1198 - P::mul_add(base_rotation[1][2], t1197, t1174);
+        let t1307 = P::neg_mul_add(base_rotation[1][2], t1200, P::lane(t689, 1)) - t1248;
+        let t1308 = P::neg_mul_add(base_rotation[2][2], t1200, t1176) - t1249;
+        let t1309 = P::neg_mul_add(base_rotation[0][2], t1202, t1175) - t1250;
+        let t1310 = P::neg_mul_add(base_rotation[2][2], t1202, P::lane(t691, 2)) - t1251;
+        let t1311 = P::neg_mul_add(base_rotation[0][2], t1204, P::lane(t692, 0)) - t1252;
+        let t1312 = P::neg_mul_add(base_rotation[1][2], t1204, t1177) - t1253;
+        let t1313 = P::lane(t1078, 0) - t1205 - P::mul_add(base_rotation[0][2], t1206, t1178);
+        let t1314 = P::lane(t1078, 1) - t1207 - P::mul_add(base_rotation[1][2], t1206, t1179);
+        let t1315 = P::neg_mul_add(base_rotation[2][2], t1206, t1086) - t1255;
+        // mass matrix M_p of the platform
+        let t1316 = t1153 + P::lane(t1231, 1);
+        mass_matrix_p[0][4] = t1316;
+        mass_matrix_p[4][0] = t1316;
+        let t1317 = P::lane(t1231, 2) - t1154;
+        mass_matrix_p[0][5] = t1317;
+        mass_matrix_p[5][0] = t1317;
+        let t1318 = P::lane(t1232, 0) - t1153;
+        mass_matrix_p[1][3] = t1318;
+        mass_matrix_p[3][1] = t1318;
+        let t1319 = t1155 + P::lane(t1232, 2);
+        mass_matrix_p[1][5] = t1319;
+        mass_matrix_p[5][1] = t1319;
+        let t1320 = t1154 + P::lane(t1233, 0);
+        mass_matrix_p[2][3] = t1320;
+        mass_matrix_p[3][2] = t1320;
+        let t1321 = P::lane(t1233, 1) - t1155;
+        mass_matrix_p[2][4] = t1321;
+        mass_matrix_p[4][2] = t1321;
+        let t1322 = P::lane(t930, 1) - t1211;
+        mass_matrix_p[3][4] = t1322;
+        mass_matrix_p[4][3] = t1322;
+        let t1323 = P::lane(t930, 2) - t1189;
+        mass_matrix_p[3][5] = t1323;
+        mass_matrix_p[5][3] = t1323;
+        let t1324 = P::lane(t1080, 2) - t1212;
+        mass_matrix_p[4][5] = t1324;
+        mass_matrix_p[5][4] = t1324;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1325 = -P::lane(t949, 1);
+        coriolis_matrix_p[0][1] = t1325;
+        coriolis_matrix_b[0][1] = t1325;
+        let t1326 = -P::lane(t949, 2);
+        coriolis_matrix_p[0][2] = t1326;
+        coriolis_matrix_b[0][2] = t1326;
+        let t1327 = -P::lane(t949, 0);
+        coriolis_matrix_p[0][0] = t1327;
+        coriolis_matrix_b[0][0] = t1327;
+        let t1328 = -P::lane(t950, 1);
+        coriolis_matrix_p[1][1] = t1328;
+        coriolis_matrix_b[1][1] = t1328;
+        let t1329 = -P::lane(t950, 2);
+        coriolis_matrix_p[1][2] = t1329;
+        coriolis_matrix_b[1][2] = t1329;
+        let t1330 = -P::lane(t950, 0);
+        coriolis_matrix_p[1][0] = t1330;
+        coriolis_matrix_b[1][0] = t1330;
+        let t1331 = -P::lane(t951, 1);
+        coriolis_matrix_p[2][1] = t1331;
+        coriolis_matrix_b[2][1] = t1331;
+        let t1332 = -P::lane(t951, 2);
+        coriolis_matrix_p[2][2] = t1332;
+        coriolis_matrix_b[2][2] = t1332;
+        let t1333 = -P::lane(t951, 0);
+        coriolis_matrix_p[2][0] = t1333;
+        coriolis_matrix_b[2][0] = t1333;
+        let t1334 = -P::lane(t975, 1);
+        coriolis_matrix_p[3][1] = t1334;
+        coriolis_matrix_b[3][1] = t1334;
+        let t1335 = -P::lane(t975, 2);
+        coriolis_matrix_p[3][2] = t1335;
+        coriolis_matrix_b[3][2] = t1335;
+        let t1336 = -P::lane(t975, 0);
+        coriolis_matrix_p[3][0] = t1336;
+        coriolis_matrix_b[3][0] = t1336;
+        let t1337 = -P::lane(t976, 1);
+        coriolis_matrix_p[4][1] = t1337;
+        coriolis_matrix_b[4][1] = t1337;
+        let t1338 = -P::lane(t976, 2);
+        coriolis_matrix_p[4][2] = t1338;
+        coriolis_matrix_b[4][2] = t1338;
+        let t1339 = -P::lane(t976, 0);
+        coriolis_matrix_p[4][0] = t1339;
+        coriolis_matrix_b[4][0] = t1339;
+        let t1340 = -P::lane(t977, 1);
+        coriolis_matrix_p[5][1] = t1340;
+        coriolis_matrix_b[5][1] = t1340;
+        let t1341 = -P::lane(t977, 2);
+        coriolis_matrix_p[5][2] = t1341;
+        coriolis_matrix_b[5][2] = t1341;
+        let t1342 = -P::lane(t977, 0);
+        coriolis_matrix_p[5][0] = t1342;
+        coriolis_matrix_b[5][0] = t1342;
+        // mass matrix M_p of the platform
+        mass_matrix_p[0][0] = P::lane(t929 + t1299, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t929, 1);
+        mass_matrix_p[0][2] = P::lane(t929, 2);
+        mass_matrix_p[0][3] = P::lane(t1231, 0);
+        mass_matrix_p[1][0] = P::lane(t929, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t1289, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t1079, 2);
+        mass_matrix_p[1][4] = P::lane(t1232, 1);
+        mass_matrix_p[2][0] = P::lane(t929, 2);
+        mass_matrix_p[2][1] = P::lane(t1079, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t1290, 2);
+        // mass matrix of the legs
+        mass_matrix_p[2][5] = P::lane(t1233, 2);
+        mass_matrix_p[3][0] = P::lane(t1231, 0);
+        // mass matrix M_p of the platform
+        mass_matrix_p[3][3] = prepared[75][3] - t1125 + P::lane(t930, 0);
+        // mass matrix of the legs
+        mass_matrix_p[4][1] = P::lane(t1232, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[4][4] = P::lane(t1080, 1) + (prepared[75][3] - t1127);
+        // mass matrix of the legs
+        mass_matrix_p[5][2] = P::lane(t1233, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[5][5] =
+            P::lane(t1217 + P::triple([c(0.0), c(0.0), P::lane(t1078, 2)]), 2) + t1300;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][3] = -P::lane(t1226, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t1280 - P::lane(t1226, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t1226, 2) + t1281);
+        coriolis_matrix_p[1][3] = -(t1280 + P::lane(t1238, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t1238, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t1282 - P::lane(t1238, 2);
+        coriolis_matrix_p[2][3] = t1281 - P::lane(t1227, 0);
+        coriolis_matrix_p[2][4] = -(t1282 + P::lane(t1227, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t1227, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t1189, t1283);
+        coriolis_matrix_p[3][4] = -P::mul_add(platform_velocity[4], t1212, t1258);
+        coriolis_matrix_p[3][5] = P::mul_sub(platform_velocity[4], t1259, t1284);
+        coriolis_matrix_p[4][3] = P::mul_sub(platform_velocity[3], t1189, t1285);
+        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t1211, t1286);
+        coriolis_matrix_p[4][5] = -P::mul_add(platform_velocity[3], t1259, t1260);
+        coriolis_matrix_p[5][3] = -P::mul_add(platform_velocity[3], t1211, t1261);
+        coriolis_matrix_p[5][4] = P::mul_sub(platform_velocity[3], t1191, t1287);
+        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t1212, t1288);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t206, 0);
+        jacobian_dp[0][1] = P::lane(t229, 0);
+        jacobian_dp[0][2] = P::lane(t230, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t306, 0);
+        jacobian_dp[0][4] = P::lane(t307, 0);
+        jacobian_dp[0][5] = P::lane(t308, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t206, 1);
+        jacobian_dp[1][1] = P::lane(t229, 1);
+        jacobian_dp[1][2] = P::lane(t230, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t306, 1);
+        jacobian_dp[1][4] = P::lane(t307, 1);
+        jacobian_dp[1][5] = P::lane(t308, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t206, 2);
+        jacobian_dp[2][1] = P::lane(t229, 2);
+        jacobian_dp[2][2] = P::lane(t230, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t306, 2);
+        jacobian_dp[2][4] = P::lane(t307, 2);
+        jacobian_dp[2][5] = P::lane(t308, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t184, 0);
+        jacobian_dp[3][1] = P::lane(t207, 0);
+        jacobian_dp[3][2] = P::lane(t208, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t273, 0);
+        jacobian_dp[3][4] = P::lane(t274, 0);
+        jacobian_dp[3][5] = P::lane(t275, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t184, 1);
+        jacobian_dp[4][1] = P::lane(t207, 1);
+        jacobian_dp[4][2] = P::lane(t208, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t273, 1);
+        jacobian_dp[4][4] = P::lane(t274, 1);
+        jacobian_dp[4][5] = P::lane(t275, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t184, 2);
+        jacobian_dp[5][1] = P::lane(t207, 2);
+        jacobian_dp[5][2] = P::lane(t208, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t273, 2);
+        jacobian_dp[5][4] = P::lane(t274, 2);
+        jacobian_dp[5][5] = P::lane(t275, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t1291, 0);
+        mass_matrix_b[0][1] = P::lane(t1291, 1);
+        mass_matrix_b[0][2] = P::lane(t1291, 2);
+        mass_matrix_b[0][3] =
+            P::lane(t1134, 0) - t1239 - P::mul_add(base_rotation[0][2], t1193, t1228);
+        mass_matrix_b[0][4] = P::lane(t1134, 1) - t1240 + t1301;
+        mass_matrix_b[0][5] = t1302 - P::lane(t479, 1);
+        mass_matrix_b[1][0] = P::lane(t1292, 0);
+        mass_matrix_b[1][1] = P::lane(t1292, 1);
+        mass_matrix_b[1][2] = P::lane(t1292, 2);
+        mass_matrix_b[1][3] = t1303 - P::lane(t479, 2);
+        mass_matrix_b[1][4] =
+            P::lane(t1162, 1) - t1242 - P::mul_add(base_rotation[1][2], t1196, t1229);
+        mass_matrix_b[1][5] = P::lane(t1162, 2) - t1243 + t1304;
+        mass_matrix_b[2][0] = P::lane(t1293, 0);
+        mass_matrix_b[2][1] = P::lane(t1293, 1);
+        mass_matrix_b[2][2] = P::lane(t1293, 2);
+        mass_matrix_b[2][3] = P::lane(t1135, 0) - t1245 + t1305;
+        mass_matrix_b[2][4] = t1306 - P::lane(t479, 0);
+        mass_matrix_b[2][5] =
+            P::lane(t1135, 2) - t1247 - P::mul_add(base_rotation[2][2], t1197, t1230);
+        mass_matrix_b[3][0] = P::neg_mul_add(base_rotation[0][2], t1200, P::lane(t689, 0)) - t1296;
+        mass_matrix_b[3][1] = t1307 - t1175;
+        mass_matrix_b[3][2] = P::lane(t689, 2) + t1308;
+        mass_matrix_b[3][3] = P::lane(t1294, 0);
+        mass_matrix_b[3][4] = P::lane(t1294, 1);
+        mass_matrix_b[3][5] = P::lane(t1294, 2);
+        mass_matrix_b[4][0] = P::lane(t691, 0) + t1309;
+        mass_matrix_b[4][1] = P::neg_mul_add(base_rotation[1][2], t1202, P::lane(t691, 1)) - t1297;
+        mass_matrix_b[4][2] = t1310 - t1177;
+        mass_matrix_b[4][3] = P::lane(t1295, 0);
+        mass_matrix_b[4][4] = P::lane(t1295, 1);
+        mass_matrix_b[4][5] = P::lane(t1295, 2);
+        mass_matrix_b[5][0] = t1311 - t1176;
+        mass_matrix_b[5][1] = P::lane(t692, 1) + t1312;
+        mass_matrix_b[5][2] = P::neg_mul_add(base_rotation[2][2], t1204, P::lane(t692, 2)) - t1298;
+        mass_matrix_b[5][3] = t1313 - P::lane(t480, 0);
+        mass_matrix_b[5][4] = t1314 - P::lane(t480, 1);
+        mass_matrix_b[5][5] = P::lane(t1078, 2) - t1254 + t1315;
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = -P::lane(t1274, 0);
+        coriolis_matrix_b[0][4] = -P::lane(t1274, 1);
+        coriolis_matrix_b[0][5] = -P::lane(t1274, 2);
+        coriolis_matrix_b[1][3] = -P::lane(t1275, 0);
+        coriolis_matrix_b[1][4] = -P::lane(t1275, 1);
+        coriolis_matrix_b[1][5] = -P::lane(t1275, 2);
+        coriolis_matrix_b[2][3] = -P::lane(t1276, 0);
+        coriolis_matrix_b[2][4] = -P::lane(t1276, 1);
+        coriolis_matrix_b[2][5] = -P::lane(t1276, 2);
+        coriolis_matrix_b[3][3] = -P::lane(t1277, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t1277, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t1277, 2);
+        coriolis_matrix_b[4][3] = -P::lane(t1278, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t1278, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t1278, 2);
+        coriolis_matrix_b[5][3] = -P::lane(t1279, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t1279, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t1279, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t206, 0);
+        jacobian_db[0][1] = P::lane(t229, 0);
+        jacobian_db[0][2] = P::lane(t230, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t1262, 0);
+        jacobian_db[0][4] = P::lane(t1264, 0);
+        jacobian_db[0][5] = P::lane(t1266, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t206, 1);
+        jacobian_db[1][1] = P::lane(t229, 1);
+        jacobian_db[1][2] = P::lane(t230, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t1262, 1);
+        jacobian_db[1][4] = P::lane(t1264, 1);
+        jacobian_db[1][5] = P::lane(t1266, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t206, 2);
+        jacobian_db[2][1] = P::lane(t229, 2);
+        jacobian_db[2][2] = P::lane(t230, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t1262, 2);
+        jacobian_db[2][4] = P::lane(t1264, 2);
+        jacobian_db[2][5] = P::lane(t1266, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t184, 0);
+        jacobian_db[3][1] = P::lane(t207, 0);
+        jacobian_db[3][2] = P::lane(t208, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t1263, 0);
+        jacobian_db[3][4] = P::lane(t1265, 0);
+        jacobian_db[3][5] = P::lane(t1267, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t184, 1);
+        jacobian_db[4][1] = P::lane(t207, 1);
+        jacobian_db[4][2] = P::lane(t208, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t1263, 1);
+        jacobian_db[4][4] = P::lane(t1265, 1);
+        jacobian_db[4][5] = P::lane(t1267, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t184, 2);
+        jacobian_db[5][1] = P::lane(t207, 2);
+        jacobian_db[5][2] = P::lane(t208, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t1263, 2);
+        jacobian_db[5][4] = P::lane(t1265, 2);
+        jacobian_db[5][5] = P::lane(t1267, 2);
+    }
+}
+
+/// What follows from the parameters alone, for \`inverse_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 38x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 38],
+) {
+    let c = T::constant;
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[1] / t4;
+    let t8 = parameters.rod_inertia[3] / t5;
+    let t9 = parameters.rod_inertia[5] / t6;
+    let t10 = c(1.0) - parameters.rod_com_fraction[1];
+    let t11 = c(1.0) - parameters.rod_com_fraction[3];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    prepared[32][0] = mul_add(t10, parameters.rod_mass[1] * t10, t7);
+    prepared[32][1] = mul_add(t11, parameters.rod_mass[3] * t11, t8);
+    let t13 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[32][2] = t13;
+    prepared[32][3] = t13;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t14 = parameters.rod_inertia[0] / t1;
+    let t15 = parameters.rod_inertia[2] / t2;
+    let t16 = parameters.rod_inertia[4] / t3;
+    let t17 = c(1.0) - parameters.rod_com_fraction[0];
+    let t18 = c(1.0) - parameters.rod_com_fraction[2];
+    let t19 = c(1.0) - parameters.rod_com_fraction[4];
+    prepared[31][0] = mul_add(t17, parameters.rod_mass[0] * t17, t14);
+    prepared[31][1] = mul_add(t18, parameters.rod_mass[2] * t18, t15);
+    let t20 = mul_add(t19, parameters.rod_mass[4] * t19, t16);
+    prepared[31][2] = t20;
+    prepared[31][3] = t20;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t21 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t22 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t23 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t24 = mul_add(parameters.rod_com_fraction[1], t21, t7);
+    let t25 = mul_add(parameters.rod_com_fraction[3], t22, t8);
+    let t26 = mul_add(parameters.rod_com_fraction[5], t23, t9);
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t27 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t28 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t29 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t30 = mul_add(parameters.rod_com_fraction[0], t27, t14);
+    let t31 = mul_add(parameters.rod_com_fraction[2], t28, t15);
+    let t32 = mul_add(parameters.rod_com_fraction[4], t29, t16);
+    // second moment of payload and platform-side leg ends
+    let t33 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t34 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t35 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t36 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t37 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][0]);
+    let t38 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t39 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t40 = mul_add(t30, t36, t37) + mul_add(t31, t38, t39);
+    let t41 = mul_add(t32, t34, t35) + t40;
+    let t42 = mul_add(t33, parameters.payload_mass, t41);
+    prepared[21][0] = t42 - parameters.payload_inertia[0][1];
+    let t43 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t44 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t45 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t46 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t47 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+    let t48 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t49 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t50 = mul_add(t30, t46, t47) + mul_add(t31, t48, t49);
+    let t51 = mul_add(t32, t44, t45) + t50;
+    let t52 = mul_add(t43, parameters.payload_mass, t51);
+    prepared[21][1] = t52 - parameters.payload_inertia[1][2];
+    let t53 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t54 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t55 = t26 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t56 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t57 = t24 * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+    let t58 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t59 = t25 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t60 = mul_add(t30, t56, t57) + mul_add(t31, t58, t59);
+    let t61 = mul_add(t32, t54, t55) + t60;
+    let t62 = mul_add(t53, parameters.payload_mass, t61);
+    let t63 = t62 - parameters.payload_inertia[0][2];
+    prepared[21][2] = t63;
+    prepared[21][3] = t63;
+    let t64 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t65 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t66 = t65 + parameters.payload_inertia[2][2];
+    let t67 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t68 = t26 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t69 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t70 = t24 * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+    let t71 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t72 = t25 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t73 = mul_add(t30, t69, t70) + mul_add(t31, t71, t72);
+    let t74 = mul_add(t66, c(0.5), mul_add(t32, t67, t68) + t73);
+    let t75 = t74 - parameters.payload_inertia[0][0];
+    prepared[22][0] = mul_add(parameters.payload_mass, t64, t75);
+    let t76 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t77 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t78 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t79 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t80 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+    let t81 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t82 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t83 = mul_add(t30, t79, t80) + mul_add(t31, t81, t82);
+    let t84 = mul_add(t66, c(0.5), mul_add(t32, t77, t78) + t83);
+    let t85 = t84 - parameters.payload_inertia[1][1];
+    prepared[22][1] = mul_add(parameters.payload_mass, t76, t85);
+    let t86 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t87 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t88 = t26 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t89 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t90 = t24 * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+    let t91 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t92 = t25 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t93 = mul_add(t30, t89, t90) + mul_add(t31, t91, t92);
+    let t94 = mul_add(t66, c(0.5), mul_add(t32, t87, t88) + t93);
+    let t95 = t94 - parameters.payload_inertia[2][2];
+    let t96 = mul_add(parameters.payload_mass, t86, t95);
+    prepared[22][2] = t96;
+    prepared[22][3] = t96;
+    // first moment of payload and platform-side leg ends
+    let t97 = parameters.platform_point[5][0] * t26;
+    let t98 = parameters.platform_point[1][0] * t24;
+    let t99 = parameters.platform_point[3][0] * t25;
+    let t100 = mul_add(parameters.platform_point[2][0], t31, t99);
+    let t101 = mul_add(parameters.platform_point[0][0], t30, t98) + t100;
+    let t102 = mul_add(parameters.platform_point[4][0], t32, t97) + t101;
+    prepared[24][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t102);
+    let t103 = parameters.platform_point[5][1] * t26;
+    let t104 = parameters.platform_point[1][1] * t24;
+    let t105 = parameters.platform_point[3][1] * t25;
+    let t106 = mul_add(parameters.platform_point[2][1], t31, t105);
+    let t107 = mul_add(parameters.platform_point[0][1], t30, t104) + t106;
+    let t108 = mul_add(parameters.platform_point[4][1], t32, t103) + t107;
+    prepared[24][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][2] * t26;
+    let t110 = parameters.platform_point[1][2] * t24;
+    let t111 = parameters.platform_point[3][2] * t25;
+    let t112 = mul_add(parameters.platform_point[2][2], t31, t111);
+    let t113 = mul_add(parameters.platform_point[0][2], t30, t110) + t112;
+    let t114 = mul_add(parameters.platform_point[4][2], t32, t109) + t113;
+    let t115 = mul_add(parameters.payload_com[2], parameters.payload_mass, t114);
+    prepared[24][2] = t115;
+    prepared[24][3] = t115;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    prepared[20][0] = neg_mul_add(t27, t17, t14);
+    prepared[20][1] = neg_mul_add(t28, t18, t15);
+    let t116 = neg_mul_add(t29, t19, t16);
+    prepared[20][2] = t116;
+    prepared[20][3] = t116;
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    prepared[23][0] = neg_mul_add(t21, t10, t7);
+    prepared[23][1] = neg_mul_add(t22, t11, t8);
+    let t117 = neg_mul_add(t23, t12, t9);
+    prepared[23][2] = t117;
+    prepared[23][3] = t117;
+    // mass of payload and platform-side leg ends
+    let t118 = t26 + t32 + (t24 + t30 + (t25 + t31));
+    let t119 = parameters.payload_mass + t118;
+    prepared[37][0] = t119;
+    prepared[37][1] = t119;
+    prepared[37][2] = t119;
+    prepared[37][3] = t119;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[2][0];
+    prepared[1][2] = parameters.platform_point[4][0];
+    prepared[1][3] = parameters.platform_point[4][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[2][2];
+    prepared[2][2] = parameters.platform_point[4][2];
+    prepared[2][3] = parameters.platform_point[4][2];
+    prepared[3][0] = parameters.platform_point[1][1];
+    prepared[3][1] = parameters.platform_point[3][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[1][0];
+    prepared[4][1] = parameters.platform_point[3][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[2][0];
+    prepared[7][2] = parameters.base_point[4][0];
+    prepared[7][3] = parameters.base_point[4][0];
+    prepared[8][0] = parameters.actuator_axis[0][1];
+    prepared[8][1] = parameters.actuator_axis[2][1];
+    prepared[8][2] = parameters.actuator_axis[4][1];
+    prepared[8][3] = parameters.actuator_axis[4][1];
+    prepared[9][0] = parameters.actuator_axis[0][0];
+    prepared[9][1] = parameters.actuator_axis[2][0];
+    prepared[9][2] = parameters.actuator_axis[4][0];
+    prepared[9][3] = parameters.actuator_axis[4][0];
+    prepared[10][0] = parameters.base_point[1][1];
+    prepared[10][1] = parameters.base_point[3][1];
+    prepared[10][2] = parameters.base_point[5][1];
+    prepared[10][3] = parameters.base_point[5][1];
+    prepared[11][0] = parameters.base_point[0][2];
+    prepared[11][1] = parameters.base_point[2][2];
+    prepared[11][2] = parameters.base_point[4][2];
+    prepared[11][3] = parameters.base_point[4][2];
+    prepared[12][0] = parameters.base_point[1][0];
+    prepared[12][1] = parameters.base_point[3][0];
+    prepared[12][2] = parameters.base_point[5][0];
+    prepared[12][3] = parameters.base_point[5][0];
+    prepared[13][0] = parameters.actuator_axis[0][2];
+    prepared[13][1] = parameters.actuator_axis[2][2];
+    prepared[13][2] = parameters.actuator_axis[4][2];
+    prepared[13][3] = parameters.actuator_axis[4][2];
+    prepared[14][0] = parameters.actuator_axis[1][1];
+    prepared[14][1] = parameters.actuator_axis[3][1];
+    prepared[14][2] = parameters.actuator_axis[5][1];
+    prepared[14][3] = parameters.actuator_axis[5][1];
+    prepared[15][0] = parameters.actuator_axis[1][0];
+    prepared[15][1] = parameters.actuator_axis[3][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.base_point[1][2];
+    prepared[16][1] = parameters.base_point[3][2];
+    prepared[16][2] = parameters.base_point[5][2];
+    prepared[16][3] = parameters.base_point[5][2];
+    prepared[17][0] = parameters.actuator_axis[1][2];
+    prepared[17][1] = parameters.actuator_axis[3][2];
+    prepared[17][2] = parameters.actuator_axis[5][2];
+    prepared[17][3] = parameters.actuator_axis[5][2];
+    prepared[25][0] = parameters.rest_length[0];
+    prepared[25][1] = parameters.rest_length[2];
+    prepared[25][2] = parameters.rest_length[4];
+    prepared[25][3] = parameters.rest_length[4];
+    prepared[26][0] = parameters.axial_damping[0];
+    prepared[26][1] = parameters.axial_damping[2];
+    prepared[26][2] = parameters.axial_damping[4];
+    prepared[26][3] = parameters.axial_damping[4];
+    prepared[27][0] = parameters.rest_length[1];
+    prepared[27][1] = parameters.rest_length[3];
+    prepared[27][2] = parameters.rest_length[5];
+    prepared[27][3] = parameters.rest_length[5];
+    prepared[28][0] = parameters.axial_damping[1];
+    prepared[28][1] = parameters.axial_damping[3];
+    prepared[28][2] = parameters.axial_damping[5];
+    prepared[28][3] = parameters.axial_damping[5];
+    prepared[29][0] = parameters.axial_stiffness[0];
+    prepared[29][1] = parameters.axial_stiffness[2];
+    prepared[29][2] = parameters.axial_stiffness[4];
+    prepared[29][3] = parameters.axial_stiffness[4];
+    prepared[30][0] = parameters.axial_stiffness[1];
+    prepared[30][1] = parameters.axial_stiffness[3];
+    prepared[30][2] = parameters.axial_stiffness[5];
+    prepared[30][3] = parameters.axial_stiffness[5];
+    prepared[33][0] = parameters.mover_offset[0];
+    prepared[33][1] = parameters.mover_offset[2];
+    prepared[33][2] = parameters.mover_offset[4];
+    prepared[33][3] = parameters.mover_offset[4];
+    prepared[34][0] = parameters.mover_offset[1];
+    prepared[34][1] = parameters.mover_offset[3];
+    prepared[34][2] = parameters.mover_offset[5];
+    prepared[34][3] = parameters.mover_offset[5];
+    prepared[35][0] = parameters.mover_mass[0];
+    prepared[35][1] = parameters.mover_mass[2];
+    prepared[35][2] = parameters.mover_mass[4];
+    prepared[35][3] = parameters.mover_mass[4];
+    prepared[36][0] = parameters.mover_mass[1];
+    prepared[36][1] = parameters.mover_mass[3];
+    prepared[36][2] = parameters.mover_mass[5];
+    prepared[36][3] = parameters.mover_mass[5];
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 38x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 38],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 = P::load(&prepared[7]);
+    let t39 = P::load(&prepared[8]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t44 = P::load(&prepared[9]);
+    let t45 = P::load(&prepared[10]);
+    let t46 = P::load(&prepared[11]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
+    // legs 2, 4, 6: platform joint from the base point
+    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+    // constant and copied elements
+    let t50 = P::load(&prepared[12]);
+    let t51 = P::load(&prepared[13]);
+    let t52 = P::load(&prepared[14]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+    // constant and copied elements
+    let t54 = P::load(&prepared[15]);
+    let t55 = P::load(&prepared[16]);
+    let t56 = P::load(&prepared[17]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
+    // legs 2, 4, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t61 = neg_mul_add(t39, t57, t43);
+    let t62 = neg_mul_add(t44, t57, t42);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t63 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t64 = neg_mul_add(t51, t57, t49);
+    // angular velocity of the base
+    let t65 = mul_add(t2, P::splat(base_velocity[3]), t59);
+    // velocity of the platform origin relative to the base
+    let t66 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t67 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t68 = P::load(&prepared[19]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t52, t63, t48);
+    let t70 = neg_mul_add(t54, t63, t53);
+    let t71 = neg_mul_add(t56, t63, t58);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t72 = mul_add(t62, t62, t61 * t61);
+    // angular velocity of the base
+    let t73 = mul_add(t5, P::splat(base_velocity[5]), t65);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t66);
+    // angular velocity of the platform
+    let t75 = mul_add(t2, P::splat(platform_velocity[3]), t67);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t76 = mul_add(t70, t70, t69 * t69);
+    // angular acceleration of the base
+    let t77 = t1 * P::splat(base_acceleration[4]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t78 = sqrt(neg_mul_add(t64, t64, t60) - t72);
+    // velocity of the platform origin relative to the base
+    let t79 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t74);
+    // angular acceleration of the platform
+    let t80 = t1 * P::splat(platform_acceleration[4]);
+    // angular acceleration of the base
+    let t81 = mul_add(t2, P::splat(base_acceleration[3]), t77);
+    // angular velocity of the platform
+    let t82 = mul_add(t5, P::splat(platform_velocity[5]), t75);
+    // platform origin seen from the base
+    let t83 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t84 = P::triple([P::lane(t73, 1), P::lane(t73, 2), P::lane(t73, 0)]);
+    // angular acceleration of the platform
+    let t85 = mul_add(t2, P::splat(platform_acceleration[3]), t80);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t86 = sqrt(neg_mul_add(t71, t71, t68) - t76);
+    // angular acceleration of the base
+    let t87 = mul_add(t5, P::splat(base_acceleration[5]), t81);
+    // angular velocity of the base
+    let t88 = P::triple([P::lane(t73, 0), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t89 = P::triple([P::lane(t73, 1), P::lane(t73, 1), P::lane(t73, 2)]);
+    // angular velocity of the platform relative to the base
+    let t90 = t73 - t82;
+    // platform origin seen from the base
+    let t91 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t92 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t93 = t88 * t89;
+    // velocity of the platform origin relative to the base
+    let t94 = mul_add(t91, t92, neg_mul_add(t83, t84, t79));
+    // angular acceleration of the platform
+    let t95 = mul_add(t5, P::splat(platform_acceleration[5]), t85);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t73, 2), P::lane(t73, 2), P::lane(t73, 0)]);
+    // acceleration of the base origin less gravity
+    let t97 = base_acceleration[0] - parameters.gravity[0];
+    let t98 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t99 = P::triple([P::lane(t73, 1), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration of the platform origin less gravity
+    let t100 = parameters.gravity[0] - platform_acceleration[0];
+    let t101 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t102 = mul_add(t99, t99, t96 * t96);
+    // angular acceleration of the base
+    let t103 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t104 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
+    // angular velocity of the platform relative to the base
+    let t105 = P::triple([P::lane(t90, 2), P::lane(t90, 0), P::lane(t90, 1)]);
+    // angular acceleration of the base
+    let t106 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t107 = t103 + t104;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t32, P::splat(P::lane(t90, 2)), P::splat(P::lane(t94, 1)));
+    // acceleration of the base origin less gravity
+    let t109 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t110 = mul_sub(t88, t89, t106);
+    // acceleration of the platform origin less gravity
+    let t111 = parameters.gravity[2] - platform_acceleration[2];
+    // angular velocity of the platform
+    let t112 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t113 = t84 + t112;
+    // angular velocity of the platform relative to the base
+    let t114 = P::triple([P::lane(t90, 1), P::lane(t90, 2), P::lane(t90, 0)]);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t115 = w(1.0) / t78;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t116 = neg_mul_add(t37, P::splat(P::lane(t90, 1)), P::splat(P::lane(t94, 0)));
+    // acceleration of the base origin less gravity
+    let t117 = mul_add(t5, P::splat(t109), mul_add(t2, P::splat(t97), t98));
+    // acceleration of the platform origin less gravity
+    let t118 = mul_add(t5, P::splat(t111), mul_add(t2, P::splat(t100), t101));
+    // rate of that angular velocity
+    let t119 = mul_add(t92, t114, neg_mul_add(t84, t105, t87 - t95));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t37, P::splat(P::lane(t90, 0)), t108);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t110, 0), -P::lane(t102, 1), P::lane(t107, 2)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t122 = mul_add(t33, P::splat(P::lane(t90, 2)), t116);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t123 = neg_mul_add(t40, P::splat(P::lane(t90, 2)), P::splat(P::lane(t94, 1)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t124 = neg_mul_add(t33, P::splat(P::lane(t90, 0)), P::splat(P::lane(t94, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t125 = P::splat(P::lane(t22, 1)) * t121;
+    // acceleration per base coordinate of points that move with the base
+    let t126 = P::triple([-P::lane(t102, 0), P::lane(t107, 1), P::lane(t110, 2)]);
+    let t127 = P::triple([P::lane(t107, 0), P::lane(t110, 1), -P::lane(t102, 2)]);
+    // velocity of the platform origin relative to the base
+    let t128 = P::triple([P::lane(t94, 1), P::lane(t94, 2), P::lane(t94, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t129 = P::triple([P::lane(t113, 1), P::lane(t113, 2), P::lane(t113, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t130 = t37 * P::splat(P::lane(t119, 0));
+    // legs 2, 4, 6: reciprocal of that extent
+    let t131 = w(1.0) / t86;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t47, P::splat(P::lane(t90, 1)), P::splat(P::lane(t94, 0)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t133 = mul_add(P::splat(P::lane(t22, 2)), t127, t117 + t118);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t134 = mul_add(t47, P::splat(P::lane(t90, 0)), t123);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t135 = mul_add(t32, P::splat(P::lane(t90, 1)), t124);
+    // velocity of the platform origin relative to the base
+    let t136 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t137 = t33 * P::splat(P::lane(t119, 2));
+    let t138 = mul_sub(t32, P::splat(P::lane(t119, 2)), t130);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t139 = mul_add(t36, P::splat(P::lane(t90, 2)), t132);
+    let t140 = neg_mul_add(t36, P::splat(P::lane(t90, 0)), P::splat(P::lane(t94, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t141 = mul_add(P::splat(P::lane(t22, 0)), t126, t125) + t133;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t142 = mul_add(t51, t135, mul_add(t44, t122, t39 * t120));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t143 = mul_sub(t37, P::splat(P::lane(t119, 1)), t137);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t144 = mul_add(t61, t115, t39);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t145 = mul_add(P::splat(P::lane(t90, 2)), t122, t138);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t146 = t47 * P::splat(P::lane(t119, 0));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t147 = t32 * P::splat(P::lane(t119, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t148 = mul_sub(t113, t136, t128 * t129) + t141;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t149 = mul_add(t40, P::splat(P::lane(t90, 1)), t140);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t150 = mul_add(t62, t115, t44);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t151 = neg_mul_add(t39, t142, t120);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t152 = mul_add(P::splat(P::lane(t90, 1)), t135, t143);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t153 = t36 * P::splat(P::lane(t119, 2));
+    let t154 = mul_sub(t40, P::splat(P::lane(t119, 2)), t146);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t155 = mul_sub(t33, P::splat(P::lane(t119, 0)), t147);
+    let t156 = neg_mul_add(P::splat(P::lane(t90, 0)), t135, t145);
+    // legs 1, 3, 5: actuator length d
+    let t157 = t57 - t78;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t158 = neg_mul_add(t44, t142, t122);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t159 = mul_add(t56, t149, mul_add(t54, t139, t52 * t134));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t160 = mul_sub(t47, P::splat(P::lane(t119, 1)), t153);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t161 = mul_add(t69, t131, t52);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t162 = mul_add(t64, t115, t51);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t163 = neg_mul_add(P::splat(P::lane(t90, 2)), t120, t152);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t164 = mul_add(P::splat(P::lane(t90, 2)), t139, t154);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t165 = mul_add(P::splat(P::lane(t90, 0)), t120, t155);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t166 = t40 * P::splat(P::lane(t119, 1));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t167 = P::splat(P::lane(t148, 1)) + t156;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t168 = mul_add(t39, t157, t21);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t169 = mul_add(t70, t131, t54);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t170 = neg_mul_add(t52, t159, t134);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t171 = neg_mul_add(t51, t142, t135);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t172 = mul_add(P::splat(P::lane(t90, 1)), t149, t160);
+    let t173 = mul_sub(t36, P::splat(P::lane(t119, 0)), t166);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t174 = mul_add(t135, t162, mul_add(t122, t150, t120 * t144));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t175 = t163 + P::splat(P::lane(t148, 0));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t176 = neg_mul_add(P::splat(P::lane(t90, 0)), t149, t164);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t177 = neg_mul_add(P::splat(P::lane(t90, 1)), t122, t165);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t178 = mul_add(t44, t157, t38);
+    let t179 = mul_add(t51, t157, t46);
+    // legs 2, 4, 6: actuator length d
+    let t180 = t63 - t86;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t181 = P::splat(P::lane(t110, 0)) * t168;
+    let t182 = P::splat(P::lane(t102, 1)) * t168;
+    let t183 = P::splat(P::lane(t107, 2)) * t168;
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t184 = neg_mul_add(t54, t159, t139);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t185 = mul_add(t71, t131, t56);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t186 = neg_mul_add(P::splat(P::lane(t90, 2)), t134, t172);
+    let t187 = mul_add(P::splat(P::lane(t90, 0)), t134, t173);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t188 = mul_add(t171, t171, mul_add(t158, t158, t151 * t151));
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t189 = t142 - t174;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t190 = P::splat(P::lane(t148, 1)) + t176;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t191 = P::splat(P::lane(t148, 2)) + t177;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t192 = mul_add(P::splat(P::lane(t107, 0)), t179, P::splat(P::lane(t117, 0)));
+    let t193 = t39 * P::splat(P::lane(t73, 2));
+    let t194 = mul_add(P::splat(P::lane(t110, 1)), t179, P::splat(P::lane(t117, 1)));
+    let t195 = t51 * P::splat(P::lane(t73, 0));
+    let t196 = neg_mul_add(P::splat(P::lane(t102, 2)), t179, P::splat(P::lane(t117, 2)));
+    let t197 = t44 * P::splat(P::lane(t73, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t198 = mul_add(t52, t180, t45);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t199 = neg_mul_add(t56, t159, t149);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t200 = mul_add(t149, t185, mul_add(t139, t169, t134 * t161));
+    // angular acceleration of the platform
+    let t201 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
+    // rotation of the platform seen from the base
+    let t202 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t203 = P::splat(P::lane(t148, 0)) + t186;
+    let t204 = neg_mul_add(P::splat(P::lane(t90, 1)), t139, t187);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t205 = mul_add(t162, t191, mul_add(t150, t175, t144 * t167));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t206 = mul_sub(t51, P::splat(P::lane(t73, 1)), t193);
+    let t207 = mul_sub(t44, P::splat(P::lane(t73, 2)), t195);
+    let t208 = mul_sub(t39, P::splat(P::lane(t73, 0)), t197);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t209 = mul_add(t54, t180, t50);
+    let t210 = mul_add(t56, t180, t55);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t211 = t192 - mul_sub(P::splat(P::lane(t102, 0)), t178, t181);
+    let t212 = t174 * w(2.0);
+    let t213 = mul_sub(P::splat(P::lane(t107, 1)), t178, t182) + t194;
+    let t214 = mul_add(P::splat(P::lane(t110, 2)), t178, t183) + t196;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t215 = P::splat(P::lane(t110, 0)) * t198;
+    let t216 = P::splat(P::lane(t102, 1)) * t198;
+    let t217 = P::splat(P::lane(t107, 2)) * t198;
+    // angular acceleration of the platform
+    let t218 = P::triple([P::lane(t95, 1), P::lane(t95, 2), P::lane(t95, 0)]);
+    // rotation of the platform seen from the base
+    let t219 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t220 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t221 = mul_sub(t82, t202, t14 * t112);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t222 = mul_add(t199, t199, mul_add(t184, t184, t170 * t170));
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t223 = t159 - t200;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t224 = P::splat(P::lane(t148, 2)) + t204;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t225 = neg_mul_add(t115, mul_add(t189, t189, t188), t205);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t226 = mul_add(P::splat(P::lane(t107, 0)), t210, P::splat(P::lane(t117, 0)));
+    let t227 = t52 * P::splat(P::lane(t73, 2));
+    let t228 = mul_add(P::splat(P::lane(t110, 1)), t210, P::splat(P::lane(t117, 1)));
+    let t229 = t56 * P::splat(P::lane(t73, 0));
+    let t230 = neg_mul_add(P::splat(P::lane(t102, 2)), t210, P::splat(P::lane(t117, 2)));
+    let t231 = t54 * P::splat(P::lane(t73, 1));
+    // rotation of the platform seen from the base
+    let t232 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t233 = mul_sub(t82, t219, t15 * t112);
+    // rotation of the platform seen from the base
+    let t234 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t235 = mul_add(t185, t224, mul_add(t169, t203, t161 * t190));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t236 = mul_sub(t56, P::splat(P::lane(t73, 1)), t227);
+    let t237 = mul_sub(t54, P::splat(P::lane(t73, 2)), t229);
+    let t238 = mul_sub(t52, P::splat(P::lane(t73, 0)), t231);
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t239 = P::load(&prepared[20]);
+    // acceleration per platform coordinate of points of the platform
+    let t240 = mul_add(t112, t221, mul_sub(t218, t220, t201 * t202));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t241 = neg_mul_add(t44, t225, mul_add(t206, t212, t211));
+    let t242 = neg_mul_add(t39, t225, mul_add(t207, t212, t213));
+    let t243 = neg_mul_add(t51, t225, mul_add(t208, t212, t214));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t244 = t226 - mul_sub(P::splat(P::lane(t102, 0)), t209, t215);
+    let t245 = t200 * w(2.0);
+    let t246 = mul_sub(P::splat(P::lane(t107, 1)), t209, t216) + t228;
+    let t247 = mul_add(P::splat(P::lane(t110, 2)), t209, t217) + t230;
+    // rotation of the platform seen from the base
+    let t248 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t249 = mul_sub(t82, t234, t17 * t112);
+    // angular velocity of the platform
+    let t250 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t251 = mul_add(t112, t233, mul_sub(t218, t232, t201 * t219));
+    let t252 = P::triple([P::lane(t221, 2), P::lane(t221, 0), P::lane(t221, 1)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t253 = neg_mul_add(t131, mul_add(t223, t223, t222), t235);
+    // acceleration per platform coordinate of points of the platform
+    let t254 = neg_mul_add(t250, t252, t240);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t255 = t239 * t241;
+    let t256 = t239 * t242;
+    let t257 = t239 * t243;
+    // acceleration per platform coordinate of points of the platform
+    let t258 = P::triple([P::lane(t233, 2), P::lane(t233, 0), P::lane(t233, 1)]);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t259 = P::load(&prepared[23]);
+    // acceleration per platform coordinate of points of the platform
+    let t260 = neg_mul_add(t250, t258, t251);
+    let t261 = mul_add(t112, t249, mul_sub(t218, t248, t201 * t234));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t262 = neg_mul_add(t54, t253, mul_add(t236, t245, t244));
+    let t263 = neg_mul_add(t52, t253, mul_add(t237, t245, t246));
+    let t264 = neg_mul_add(t56, t253, mul_add(t238, t245, t247));
+    // acceleration per platform coordinate of points of the platform
+    let t265 = P::triple([P::lane(t249, 2), P::lane(t249, 0), P::lane(t249, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t266 = mul_sub(t33, t257, t37 * t256);
+    let t267 = mul_sub(t37, t255, t32 * t257);
+    let t268 = mul_sub(t32, t256, t33 * t255);
+    // acceleration per platform coordinate of points of the platform
+    let t269 = neg_mul_add(t250, t265, t261);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t270 = t259 * t262;
+    let t271 = t259 * t263;
+    let t272 = t259 * t264;
+    // first moments by platform coordinate of the payload's inertia force
+    let t273 = mul_add(P::splat(prepared[22][0]), t260, P::splat(prepared[21][0]) * t254);
+    // inertia less external wrench that the actuators must balance
+    let t274 = t1 * P::splat(external_wrench[1]);
+    // inertia force less weight, without the actuators' own shares
+    let t275 = mul_add(t239, t241, t270);
+    let t276 = mul_add(t239, t242, t271);
+    let t277 = mul_add(t239, t243, t272);
+    // first moments by platform coordinate of the payload's inertia force
+    let t278 = mul_add(P::splat(prepared[21][2]), t269, t273);
+    // inertia less external wrench that the actuators must balance
+    let t279 = mul_add(t2, P::splat(external_wrench[0]), t274);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t280 = neg_mul_add(t47, t271, mul_add(t36, t272, t266));
+    let t281 = neg_mul_add(t40, t272, mul_add(t47, t270, t267));
+    let t282 = neg_mul_add(t36, t270, mul_add(t40, t271, t268));
+    // first moments by platform coordinate of the payload's inertia force
+    let t283 = mul_sub(t118, P::splat(prepared[24][0]), t278);
+    let t284 = mul_add(P::splat(prepared[21][0]), t260, t254 * P::splat(prepared[22][1]));
+    // inertia less external wrench that the actuators must balance
+    let t285 = mul_add(t5, P::splat(external_wrench[2]), t279);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t286 = P::triple([P::lane(t162, 2), P::lane(t162, 0), P::lane(t162, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t287 = P::triple([P::lane(t150, 1), P::lane(t150, 2), P::lane(t150, 0)]);
+    let t288 = P::triple([P::lane(t162, 1), P::lane(t162, 2), P::lane(t162, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t289 = P::triple([P::lane(t144, 2), P::lane(t144, 0), P::lane(t144, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t290 = P::triple([P::lane(t275, 0), P::lane(t276, 0), P::lane(t277, 0)]);
+    let t291 = P::triple([P::lane(t275, 1), P::lane(t276, 1), P::lane(t277, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t292 = mul_add(P::splat(prepared[21][1]), t269, t284);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t293 = P::triple([P::lane(t150, 2), P::lane(t150, 0), P::lane(t150, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t294 = P::triple([P::lane(t144, 1), P::lane(t144, 2), P::lane(t144, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t295 = mul_sub(t288, t293, t286 * t287);
+    let t296 = mul_sub(t286, t294, t288 * t289);
+    // inertia force less weight, without the actuators' own shares
+    let t297 = P::triple([P::lane(t275, 2), P::lane(t276, 2), P::lane(t277, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t298 = P::triple([P::lane(t280, 0), P::lane(t281, 0), P::lane(t282, 0)]);
+    let t299 = P::triple([P::lane(t280, 1), P::lane(t281, 1), P::lane(t282, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t300 = mul_sub(t118, P::splat(prepared[24][1]), t292);
+    let t301 = mul_add(P::splat(prepared[21][2]), t260, P::splat(prepared[21][1]) * t254);
+    // inertia less external wrench that the actuators must balance
+    let t302 = P::triple([P::lane(t285, 2), P::lane(t285, 0), P::lane(t285, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t303 = P::triple([P::lane(t283, 2), P::lane(t283, 0), P::lane(t283, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t304 = mul_add(P::splat(parameters.payload_com[0]), t302, t303);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t305 = P::triple([P::lane(t280, 2), P::lane(t281, 2), P::lane(t282, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t306 = mul_add(t118, P::splat(prepared[37][0]), t290 + t291 + t297);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t307 = t298 + t299 + t305;
+    // force along the actuator that balances the remaining wrench
+    let t308 = t161 * P::splat(P::lane(t295, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t309 = mul_add(P::splat(prepared[22][2]), t269, t301);
+    // force along the actuator that balances the remaining wrench
+    let t310 = mul_sub(t287, t289, t293 * t294);
+    let t311 = mul_add(t169, P::splat(P::lane(t296, 0)), t308);
+    let t312 = P::lane(t150, 1) * P::lane(t296, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t313 = mul_sub(t260, P::splat(prepared[24][0]), t306);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t314 = mul_sub(t37, t150, t32 * t162);
+    let t315 = mul_sub(t32, t144, t33 * t150);
+    // first moments by platform coordinate of the payload's inertia force
+    let t316 = mul_sub(t118, P::splat(prepared[24][2]), t309);
+    let t317 = P::triple([P::lane(t300, 2), P::lane(t300, 0), P::lane(t300, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t318 = mul_add(P::splat(parameters.payload_com[1]), t302, t317);
+    let t319 = P::triple([P::lane(t304, 2), P::lane(t304, 0), P::lane(t304, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t320 = P::mul_add(P::lane(t150, 0), P::lane(t296, 0), t312);
+    // inertia less external wrench that the actuators must balance
+    let t321 = neg_mul_add(t232, t319, mul_add(t219, t304, t307));
+    // force along the actuator that balances the remaining wrench
+    let t322 = mul_add(t185, P::splat(P::lane(t310, 0)), t311);
+    let t323 = t161 * P::splat(P::lane(t295, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t324 = mul_add(t254, P::splat(prepared[24][1]), t313);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t325 = mul_sub(t47, t169, t40 * t185);
+    let t326 = mul_sub(t40, t161, t36 * t169);
+    // force along the actuator that balances the remaining wrench
+    let t327 = mul_add(t169, P::splat(P::lane(t296, 1)), t323);
+    let t328 = P::mul_add(P::lane(t150, 2), P::lane(t296, 2), t320);
+    let t329 = t161 * P::splat(P::lane(t295, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t330 = mul_add(t269, P::splat(prepared[24][2]), t324);
+    // first moments by platform coordinate of the payload's inertia force
+    let t331 = P::triple([P::lane(t316, 2), P::lane(t316, 0), P::lane(t316, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t332 = mul_add(P::splat(parameters.payload_com[2]), t302, t331);
+    let t333 = P::triple([P::lane(t318, 2), P::lane(t318, 0), P::lane(t318, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t334 = mul_add(t185, P::splat(P::lane(t310, 1)), t327);
+    let t335 = mul_add(t169, P::splat(P::lane(t296, 2)), t329);
+    let t336 = mul_sub(t325, P::splat(t328), t322 * P::splat(P::lane(t314, 0)));
+    let t337 = mul_sub(t326, P::splat(t328), t322 * P::splat(P::lane(t315, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t338 = neg_mul_add(t220, t333, mul_add(t202, t318, t321));
+    let t339 = t330 - t285;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t340 = mul_sub(t33, t162, t37 * t144);
+    // force along the actuator that balances the remaining wrench
+    let t341 = mul_add(t185, P::splat(P::lane(t310, 2)), t335);
+    let t342 = neg_mul_add(P::splat(P::lane(t314, 1)), t334, t336);
+    let t343 = neg_mul_add(P::splat(P::lane(t315, 1)), t334, t337);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t344 = mul_sub(t36, t185, t47 * t161);
+    // inertia less external wrench that the actuators must balance
+    let t345 = P::triple([P::lane(t332, 2), P::lane(t332, 0), P::lane(t332, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t346 = neg_mul_add(P::splat(P::lane(t314, 2)), t341, t342);
+    let t347 = neg_mul_add(P::splat(P::lane(t315, 2)), t341, t343);
+    // inertia less external wrench that the actuators must balance
+    let t348 = neg_mul_add(t248, t345, mul_add(t234, t332, t338));
+    // force along the actuator that balances the remaining wrench
+    let t349 = t295 * P::splat(P::lane(t339, 1));
+    let t350 = mul_add(t296, P::splat(P::lane(t339, 0)), t349);
+    let t351 = mul_sub(P::splat(t328), t344, t322 * P::splat(P::lane(t340, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t352 = mul_add(t2, P::splat(external_wrench[3]), t348);
+    // force along the actuator that balances the remaining wrench
+    let t353 = mul_add(t310, P::splat(P::lane(t339, 2)), t350);
+    let t354 = neg_mul_add(t334, P::splat(P::lane(t340, 1)), t351);
+    let t355 = P::triple([P::lane(t346, 2), P::lane(t346, 0), P::lane(t346, 1)]);
+    let t356 = P::triple([P::lane(t346, 1), P::lane(t346, 2), P::lane(t346, 0)]);
+    let t357 = P::triple([P::lane(t347, 1), P::lane(t347, 2), P::lane(t347, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t358 = mul_add(t1, P::splat(external_wrench[4]), t352);
+    // force along the actuator that balances the remaining wrench
+    let t359 = P::triple([P::lane(t347, 2), P::lane(t347, 0), P::lane(t347, 1)]);
+    let t360 = neg_mul_add(t341, P::splat(P::lane(t340, 2)), t354);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t361 = P::triple([P::lane(t340, 0), P::lane(t314, 0), P::lane(t315, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t362 = mul_sub(t356, t359, t355 * t357);
+    // inertia less external wrench that the actuators must balance
+    let t363 = mul_add(t5, P::splat(external_wrench[5]), t358);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t364 = P::triple([P::lane(t340, 1), P::lane(t314, 1), P::lane(t315, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t365 = mul_add(P::splat(t328), t363, P::splat(P::lane(t353, 0)) * t361);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t366 = P::triple([P::lane(t340, 2), P::lane(t314, 2), P::lane(t315, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t367 = P::triple([P::lane(t360, 1), P::lane(t360, 2), P::lane(t360, 0)]);
+    let t368 = P::triple([P::lane(t360, 2), P::lane(t360, 0), P::lane(t360, 1)]);
+    let t369 = P::lane(t360, 1) * P::lane(t362, 1);
+    let t370 = mul_add(P::splat(P::lane(t353, 1)), t364, t365);
+    let t371 = P::mul_add(P::lane(t360, 0), P::lane(t362, 0), t369);
+    let t372 = mul_add(P::splat(P::lane(t353, 2)), t366, t370);
+    let t373 = mul_sub(t355, t367, t356 * t368);
+    let t374 = P::triple([P::lane(t322, 0), P::lane(t334, 0), P::lane(t341, 0)]);
+    let t375 = c(1.0) / P::mul_add(P::lane(t360, 2), P::lane(t362, 2), t371);
+    let t376 = P::triple([P::lane(t322, 1), P::lane(t334, 1), P::lane(t341, 1)]);
+    let t377 = mul_sub(t357, t368, t359 * t367) * P::splat(P::lane(t372, 1));
+    let t378 = P::triple([P::lane(t322, 2), P::lane(t334, 2), P::lane(t341, 2)]);
+    let t379 = mul_add(t362, P::splat(P::lane(t372, 0)), t377);
+    let t380 = P::splat(t375) * mul_add(t373, P::splat(P::lane(t372, 2)), t379);
+    // inertia less external wrench that the actuators must balance
+    let t381 = -P::lane(t363, 0);
+    let t382 = -P::lane(t363, 1);
+    let t383 = -P::lane(t363, 2);
+    // force along the actuator that balances the remaining wrench
+    let t384 = -t380;
+    let t385 = mul_add(t374, P::splat(P::lane(t380, 0)), t353);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t386 = t9 * P::splat(P::lane(t254, 1));
+    // force along the actuator that balances the remaining wrench
+    let t387 = mul_add(t376, P::splat(P::lane(t380, 1)), t385);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t388 = t18 * P::splat(P::lane(t254, 1));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t389 = t9 * P::splat(P::lane(t254, 0));
+    let t390 = neg_mul_add(t13, P::splat(P::lane(t269, 1)), P::splat(P::lane(t118, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t391 = mul_add(t378, P::splat(P::lane(t380, 2)), t387);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t392 = t18 * P::splat(P::lane(t254, 0));
+    let t393 = neg_mul_add(t20, P::splat(P::lane(t269, 1)), P::splat(P::lane(t118, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t394 = P::splat(c(1.0) / t328) * t391;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t395 = neg_mul_add(t13, P::splat(P::lane(t269, 0)), P::splat(P::lane(t118, 0)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t396 = neg_mul_add(t20, P::splat(P::lane(t269, 0)), P::splat(P::lane(t118, 0)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t397 = t9 * P::splat(P::lane(t254, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t398 = t18 * P::splat(P::lane(t254, 2));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t399 = t395 - mul_add(t12, P::splat(P::lane(t260, 0)), t389);
+    let t400 = neg_mul_add(t13, P::splat(P::lane(t269, 2)), P::splat(P::lane(t118, 2)));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t384, t394],
+        &[
+            [t169, t150],
+            [t161, t144],
+            [t185, t162],
+            [t344, t340],
+            [t325, t314],
+            [t326, t315],
+        ],
+        &[P::lane(t339, 0), P::lane(t339, 1), P::lane(t339, 2), t381, t382, t383],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t401 = t39 * (t390 - mul_add(t12, P::splat(P::lane(t260, 1)), t386));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t402 = t396 - mul_add(t19, P::splat(P::lane(t260, 0)), t392);
+    let t403 = t52 * (t393 - mul_add(t19, P::splat(P::lane(t260, 1)), t388));
+    let t404 = neg_mul_add(t20, P::splat(P::lane(t269, 2)), P::splat(P::lane(t118, 2)));
+    // constant and copied elements
+    let t405 = P::load(&prepared[25]);
+    let t406 = P::load(&prepared[26]);
+    let t407 = P::load(&prepared[27]);
+    let t408 = P::load(&prepared[28]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t409 = t400 - mul_add(t12, P::splat(P::lane(t260, 2)), t397);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t410 = t404 - mul_add(t19, P::splat(P::lane(t260, 2)), t398);
+    // constant and copied elements
+    let t411 = P::load(&prepared[29]);
+    let t412 = P::load(&prepared[30]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t413 = mul_add(t51, t409, mul_add(t44, t399, t401));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t414 = mul_add(t56, t410, mul_add(t54, t402, t403));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t415 = mul_add(t157 - t405, t411, t174 * t406);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t416 = mul_add(t180 - t407, t412, t200 * t408);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t417 = mul_add(t51, t243, mul_add(t44, t241, t39 * t242));
+    let t418 = mul_add(t208, t208, mul_add(t206, t206, t207 * t207));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t419 = mul_add(t56, t264, mul_add(t54, t262, t52 * t263));
+    let t420 = mul_add(t238, t238, mul_add(t236, t236, t237 * t237));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t421 = P::load(&prepared[31]);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t422 = P::load(&prepared[32]);
+    // constant and copied elements
+    let t423 = P::load(&prepared[33]);
+    let t424 = P::load(&prepared[34]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t425 = mul_add(t418, t423, t417);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t426 = mul_add(t420, t424, t419);
+    // constant and copied elements
+    let t427 = P::load(&prepared[35]);
+    let t428 = P::load(&prepared[36]);
+    // legs 1, 3, 5: actuator forces F
+    let t429 = mul_add(t417, t421, mul_add(t239, t413, t415));
+    // legs 2, 4, 6: actuator forces F
+    let t430 = mul_add(t419, t422, mul_add(t259, t414, t416));
+    // force along the actuator that balances the remaining wrench
+    let t431 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t432 = mul_add(t425, t427, t429) + t431;
+    // force along the actuator that balances the remaining wrench
+    let t433 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t434 = mul_add(t426, t428, t430) + t433;
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t432, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t434, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t432, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t434, 1);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t432, 2);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t434, 2);
+}
+
+/// What follows from the parameters alone, for \`actuator_geometry\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 20x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_actuator_geometry<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 20],
+) {
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    prepared[18][0] = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[18][1] = parameters.rod_length[1] * parameters.rod_length[1];
+    let t1 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[18][2] = t1;
+    prepared[18][3] = t1;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    prepared[19][0] = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][1] = parameters.rod_length[4] * parameters.rod_length[4];
+    let t2 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t2;
+    prepared[19][3] = t2;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[3][1];
+    prepared[1][1] = parameters.platform_point[4][1];
+    prepared[1][2] = parameters.platform_point[5][1];
+    prepared[1][3] = parameters.platform_point[5][1];
+    prepared[2][0] = parameters.platform_point[0][0];
+    prepared[2][1] = parameters.platform_point[1][0];
+    prepared[2][2] = parameters.platform_point[2][0];
+    prepared[2][3] = parameters.platform_point[2][0];
+    prepared[3][0] = parameters.platform_point[0][2];
+    prepared[3][1] = parameters.platform_point[1][2];
+    prepared[3][2] = parameters.platform_point[2][2];
+    prepared[3][3] = parameters.platform_point[2][2];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[3][2];
+    prepared[5][1] = parameters.platform_point[4][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[1][1];
+    prepared[6][2] = parameters.base_point[2][1];
+    prepared[6][3] = parameters.base_point[2][1];
+    prepared[7][0] = parameters.base_point[3][1];
+    prepared[7][1] = parameters.base_point[4][1];
+    prepared[7][2] = parameters.base_point[5][1];
+    prepared[7][3] = parameters.base_point[5][1];
+    prepared[8][0] = parameters.base_point[0][0];
+    prepared[8][1] = parameters.base_point[1][0];
+    prepared[8][2] = parameters.base_point[2][0];
+    prepared[8][3] = parameters.base_point[2][0];
+    prepared[9][0] = parameters.base_point[3][0];
+    prepared[9][1] = parameters.base_point[4][0];
+    prepared[9][2] = parameters.base_point[5][0];
+    prepared[9][3] = parameters.base_point[5][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[1][2];
+    prepared[10][2] = parameters.base_point[2][2];
+    prepared[10][3] = parameters.base_point[2][2];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[12][0] = parameters.actuator_axis[0][1];
+    prepared[12][1] = parameters.actuator_axis[1][1];
+    prepared[12][2] = parameters.actuator_axis[2][1];
+    prepared[12][3] = parameters.actuator_axis[2][1];
+    prepared[13][0] = parameters.actuator_axis[3][1];
+    prepared[13][1] = parameters.actuator_axis[4][1];
+    prepared[13][2] = parameters.actuator_axis[5][1];
+    prepared[13][3] = parameters.actuator_axis[5][1];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[1][0];
+    prepared[14][2] = parameters.actuator_axis[2][0];
+    prepared[14][3] = parameters.actuator_axis[2][0];
+    prepared[15][0] = parameters.actuator_axis[3][0];
+    prepared[15][1] = parameters.actuator_axis[4][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.actuator_axis[0][2];
+    prepared[16][1] = parameters.actuator_axis[1][2];
+    prepared[16][2] = parameters.actuator_axis[2][2];
+    prepared[16][3] = parameters.actuator_axis[2][2];
+    prepared[17][0] = parameters.actuator_axis[3][2];
+    prepared[17][1] = parameters.actuator_axis[4][2];
+    prepared[17][2] = parameters.actuator_axis[5][2];
+    prepared[17][3] = parameters.actuator_axis[5][2];
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `prepared`: 20x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn actuator_geometry_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    prepared: &[[P::Lane; 4]; 20],
+    rod_alignment: &mut [P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    let t5 = t1 * P::splat(platform_rotation[1][2]);
+    // constant and copied elements
+    let t6 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    let t9 = mul_add(t2, P::splat(platform_rotation[0][2]), t5);
+    // platform origin seen from the base
+    let t10 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t11 = P::load(&prepared[0]);
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t6, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t6, P::splat(platform_rotation[2][0]), t8);
+    let t16 = mul_add(t6, P::splat(platform_rotation[2][2]), t9);
+    // platform origin seen from the base
+    let t17 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t6, P::splat(platform_position[2] - base_position[2]), t17);
+    // constant and copied elements
+    let t23 = P::load(&prepared[7]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t24 = t11 * P::splat(P::lane(t14, 0));
+    let t25 = t11 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    let t27 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = mul_add(t19, P::splat(P::lane(t15, 1)), t26);
+    // constant and copied elements
+    let t30 = P::load(&prepared[8]);
+    let t31 = P::load(&prepared[9]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t32 = mul_add(t13, P::splat(P::lane(t15, 0)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 0)), t27);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t34 = t11 * P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t35 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: platform joint from the base point
+    let t36 = mul_sub(t18, P::splat(P::lane(t16, 1)), t21) + t28;
+    // legs 4, 5, 6: platform joint from the base point
+    let t37 = mul_sub(t20, P::splat(P::lane(t16, 1)), t23) + t29;
+    // constant and copied elements
+    let t38 = P::load(&prepared[10]);
+    let t39 = P::load(&prepared[11]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t40 = mul_add(t13, P::splat(P::lane(t15, 2)), t34);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + mul_sub(t18, P::splat(P::lane(t16, 0)), t30);
+    // legs 4, 5, 6: platform joint from the base point
+    let t43 = t33 + mul_sub(t20, P::splat(P::lane(t16, 0)), t31);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t36;
+    // legs 4, 5, 6: platform joint from the base point
+    let t45 = P::splat(P::lane(t22, 1)) + t37;
+    // constant and copied elements
+    let t46 = P::load(&prepared[12]);
+    let t47 = P::load(&prepared[13]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t48 = t42 + P::splat(P::lane(t22, 0));
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = t43 + P::splat(P::lane(t22, 0));
+    // legs 1, 2, 3: platform joint from the base point
+    let t50 = t40 + mul_sub(t18, P::splat(P::lane(t16, 2)), t38);
+    // legs 4, 5, 6: platform joint from the base point
+    let t51 = t41 + mul_sub(t20, P::splat(P::lane(t16, 2)), t39);
+    // constant and copied elements
+    let t52 = P::load(&prepared[14]);
+    let t53 = P::load(&prepared[15]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 2)) + t50;
+    // legs 4, 5, 6: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t51;
+    // constant and copied elements
+    let t56 = P::load(&prepared[16]);
+    let t57 = P::load(&prepared[17]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t54, t56, mul_add(t48, t52, t44 * t46));
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t59 = mul_add(t55, t57, mul_add(t49, t53, t45 * t47));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t61 = P::load(&prepared[19]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t62 = P::splat(platform_rotation[0][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t63 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t64 = P::splat(platform_rotation[1][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t65 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t66 = neg_mul_add(t46, t58, t44);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t67 = neg_mul_add(t47, t59, t45);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t68 = neg_mul_add(t52, t58, t48);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t53, t59, t49);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t70 = neg_mul_add(t56, t58, t54);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t57, t59, t55);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t72 = P::splat(platform_rotation[2][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t73 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t74 = mul_add(P::splat(platform_rotation[0][0]), t13, t62);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t75 = mul_add(P::splat(platform_rotation[0][0]), t19, t63);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t76 = mul_add(t68, t68, t66 * t66);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t77 = mul_add(t69, t69, t67 * t67);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t78 = mul_add(P::splat(platform_rotation[1][0]), t13, t64);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t79 = mul_add(P::splat(platform_rotation[1][0]), t19, t65);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t80 = mul_add(P::splat(platform_rotation[2][0]), t13, t72);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t81 = mul_add(P::splat(platform_rotation[2][0]), t19, t73);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t82 = mul_add(P::splat(platform_rotation[0][2]), t18, t74);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t83 = mul_add(P::splat(platform_rotation[0][2]), t20, t75);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t84 = neg_mul_add(t70, t70, t60) - t76;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t85 = neg_mul_add(t71, t71, t61) - t77;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t86 = mul_add(P::splat(platform_rotation[1][2]), t18, t78);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t87 = mul_add(P::splat(platform_rotation[1][2]), t20, t79);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t88 = mul_add(P::splat(platform_rotation[2][2]), t18, t80);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t89 = mul_add(P::splat(platform_rotation[2][2]), t20, t81);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t90 = sqrt(t84);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t91 = sqrt(t85);
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t92 = t84 / t60;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t93 = t85 / t61;
+    // legs 1, 2, 3: reciprocal of that extent
+    let t94 = w(1.0) / t90;
+    // legs 4, 5, 6: reciprocal of that extent
+    let t95 = w(1.0) / t91;
+    // legs 1, 2, 3: actuator length d
+    let t96 = t58 - t90;
+    // legs 4, 5, 6: actuator length d
+    let t97 = t59 - t91;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t98 = mul_add(t66, t94, t46);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t99 = mul_add(t67, t95, t47);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t100 = mul_add(t68, t94, t52);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t101 = mul_add(t69, t95, t53);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t102 = mul_add(t70, t94, t56);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t103 = mul_add(t71, t95, t57);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t104 = P::splat(base_rotation[0][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t105 = P::splat(base_rotation[0][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t106 = P::splat(base_rotation[1][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t107 = P::splat(base_rotation[1][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t108 = P::splat(base_rotation[2][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t109 = P::splat(base_rotation[2][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t110 = mul_add(P::splat(base_rotation[0][0]), t100, t104);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t111 = mul_add(P::splat(base_rotation[0][0]), t101, t105);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t112 = mul_add(P::splat(base_rotation[1][0]), t100, t106);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t113 = mul_add(P::splat(base_rotation[1][0]), t101, t107);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t114 = mul_add(P::splat(base_rotation[2][0]), t100, t108);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t115 = mul_add(P::splat(base_rotation[2][0]), t101, t109);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t116 = mul_add(P::splat(base_rotation[0][2]), t102, t110);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t117 = mul_add(P::splat(base_rotation[0][2]), t103, t111);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t118 = mul_add(P::splat(base_rotation[1][2]), t102, t112);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t119 = mul_add(P::splat(base_rotation[1][2]), t103, t113);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t120 = mul_add(P::splat(base_rotation[2][2]), t102, t114);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t121 = mul_add(P::splat(base_rotation[2][2]), t103, t115);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t122 = mul_sub(t82, t118, t86 * t116);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t123 = mul_sub(t83, t119, t87 * t117);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t124 = mul_sub(t86, t120, t88 * t118);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t125 = mul_sub(t87, t121, t89 * t119);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t126 = mul_sub(t88, t116, t82 * t120);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t127 = mul_sub(t89, t117, t83 * t121);
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = P::lane(t92, 0);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = P::lane(t92, 1);
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = P::lane(t92, 2);
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = P::lane(t93, 0);
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = P::lane(t93, 1);
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = P::lane(t93, 2);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t96, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t96, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t96, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t97, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t97, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t97, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t116, 0);
+    jacobian_dp[0][1] = P::lane(t118, 0);
+    jacobian_dp[0][2] = P::lane(t120, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t124, 0);
+    jacobian_dp[0][4] = P::lane(t126, 0);
+    jacobian_dp[0][5] = P::lane(t122, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t116, 1);
+    jacobian_dp[1][1] = P::lane(t118, 1);
+    jacobian_dp[1][2] = P::lane(t120, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t124, 1);
+    jacobian_dp[1][4] = P::lane(t126, 1);
+    jacobian_dp[1][5] = P::lane(t122, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t116, 2);
+    jacobian_dp[2][1] = P::lane(t118, 2);
+    jacobian_dp[2][2] = P::lane(t120, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t124, 2);
+    jacobian_dp[2][4] = P::lane(t126, 2);
+    jacobian_dp[2][5] = P::lane(t122, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t117, 0);
+    jacobian_dp[3][1] = P::lane(t119, 0);
+    jacobian_dp[3][2] = P::lane(t121, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t125, 0);
+    jacobian_dp[3][4] = P::lane(t127, 0);
+    jacobian_dp[3][5] = P::lane(t123, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t117, 1);
+    jacobian_dp[4][1] = P::lane(t119, 1);
+    jacobian_dp[4][2] = P::lane(t121, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t125, 1);
+    jacobian_dp[4][4] = P::lane(t127, 1);
+    jacobian_dp[4][5] = P::lane(t123, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t117, 2);
+    jacobian_dp[5][1] = P::lane(t119, 2);
+    jacobian_dp[5][2] = P::lane(t121, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t125, 2);
+    jacobian_dp[5][4] = P::lane(t127, 2);
+    jacobian_dp[5][5] = P::lane(t123, 2);
+}
+
+/// What follows from the parameters alone, for \`control\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 46x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_control<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 46],
+) {
+    let c = T::constant;
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[1] / t1;
+    let t8 = parameters.rod_inertia[3] / t2;
+    let t9 = parameters.rod_inertia[5] / t3;
+    let t10 = c(1.0) - parameters.rod_com_fraction[1];
+    let t11 = c(1.0) - parameters.rod_com_fraction[3];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[1] * t10, t7);
+    prepared[21][0] = t13;
+    let t14 = mul_add(t11, parameters.rod_mass[3] * t11, t8);
+    prepared[21][1] = t14;
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[21][2] = t15;
+    prepared[21][3] = t15;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t4;
+    let t17 = parameters.rod_inertia[2] / t5;
+    let t18 = parameters.rod_inertia[4] / t6;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[2];
+    let t21 = c(1.0) - parameters.rod_com_fraction[4];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    prepared[20][0] = t22;
+    let t23 = mul_add(t20, parameters.rod_mass[2] * t20, t17);
+    prepared[20][1] = t23;
+    let t24 = mul_add(t21, parameters.rod_mass[4] * t21, t18);
+    prepared[20][2] = t24;
+    prepared[20][3] = t24;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t26 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[1], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[3], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t33 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[2], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[4], t33, t18);
+    // second moment of payload and platform-side leg ends
+    let t37 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t38 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t39 = t38 + parameters.payload_inertia[2][2];
+    let t40 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t41 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t42 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t43 = t28 * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+    let t44 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t45 = t29 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t46 = mul_add(t34, t42, t43) + mul_add(t35, t44, t45);
+    let t47 = mul_add(c(0.5), t39, mul_add(t36, t40, t41) + t46);
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    let t49 = mul_add(parameters.payload_mass, t37, t48);
+    prepared[35][0] = t49;
+    let t50 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t51 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t52 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+    let t55 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t56 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t57 = mul_add(t34, t53, t54) + mul_add(t35, t55, t56);
+    let t58 = mul_add(c(0.5), t39, mul_add(t36, t51, t52) + t57);
+    let t59 = t58 - parameters.payload_inertia[1][1];
+    let t60 = mul_add(parameters.payload_mass, t50, t59);
+    prepared[35][1] = t60;
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t63 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t64 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t65 = t28 * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+    let t66 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t67 = t29 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t68 = mul_add(t34, t64, t65) + mul_add(t35, t66, t67);
+    let t69 = mul_add(c(0.5), t39, mul_add(t36, t62, t63) + t68);
+    let t70 = t69 - parameters.payload_inertia[2][2];
+    let t71 = mul_add(parameters.payload_mass, t61, t70);
+    prepared[35][2] = t71;
+    prepared[35][3] = t71;
+    let t72 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t73 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t74 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t75 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t76 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][0]);
+    let t77 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t78 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t79 = mul_add(t34, t75, t76) + mul_add(t35, t77, t78);
+    let t80 = mul_add(t36, t73, t74) + t79;
+    let t81 = mul_add(t72, parameters.payload_mass, t80);
+    prepared[34][0] = t81 - parameters.payload_inertia[0][1];
+    let t82 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t83 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t84 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t85 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t86 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+    let t87 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t88 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t89 = mul_add(t34, t85, t86) + mul_add(t35, t87, t88);
+    let t90 = mul_add(t36, t83, t84) + t89;
+    let t91 = mul_add(t82, parameters.payload_mass, t90);
+    prepared[34][1] = t91 - parameters.payload_inertia[1][2];
+    let t92 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t93 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t94 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t95 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t96 = t28 * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+    let t97 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t98 = t29 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t99 = mul_add(t34, t95, t96) + mul_add(t35, t97, t98);
+    let t100 = mul_add(t36, t93, t94) + t99;
+    let t101 = mul_add(t92, parameters.payload_mass, t100);
+    let t102 = t101 - parameters.payload_inertia[0][2];
+    prepared[34][2] = t102;
+    prepared[34][3] = t102;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    prepared[22][0] = neg_mul_add(t31, t19, t16);
+    prepared[22][1] = neg_mul_add(t32, t20, t17);
+    let t103 = neg_mul_add(t33, t21, t18);
+    prepared[22][2] = t103;
+    prepared[22][3] = t103;
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    prepared[24][0] = neg_mul_add(t25, t10, t7);
+    prepared[24][1] = neg_mul_add(t26, t11, t8);
+    let t104 = neg_mul_add(t27, t12, t9);
+    prepared[24][2] = t104;
+    prepared[24][3] = t104;
+    // legs 1, 3, 5: mass that slides along the actuator axis: mover and rod's end
+    let t105 = t22 + parameters.mover_mass[0];
+    let t106 = t23 + parameters.mover_mass[2];
+    let t107 = t24 + parameters.mover_mass[4];
+    // legs 2, 4, 6: mass that slides along the actuator axis: mover and rod's end
+    let t108 = t13 + parameters.mover_mass[1];
+    let t109 = t14 + parameters.mover_mass[3];
+    let t110 = t15 + parameters.mover_mass[5];
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    prepared[26][0] = t105 * c(0.5);
+    prepared[26][1] = t106 * c(0.5);
+    let t111 = t107 * c(0.5);
+    prepared[26][2] = t111;
+    prepared[26][3] = t111;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    prepared[27][0] = t108 * c(0.5);
+    prepared[27][1] = t109 * c(0.5);
+    let t112 = t110 * c(0.5);
+    prepared[27][2] = t112;
+    prepared[27][3] = t112;
+    // first moment of payload and platform-side leg ends
+    let t113 = parameters.platform_point[5][0] * t30;
+    let t114 = parameters.platform_point[1][0] * t28;
+    let t115 = parameters.platform_point[3][0] * t29;
+    let t116 = mul_add(parameters.platform_point[2][0], t35, t115);
+    let t117 = mul_add(parameters.platform_point[0][0], t34, t114) + t116;
+    let t118 = mul_add(parameters.platform_point[4][0], t36, t113) + t117;
+    prepared[38][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t118);
+    let t119 = parameters.platform_point[5][1] * t30;
+    let t120 = parameters.platform_point[1][1] * t28;
+    let t121 = parameters.platform_point[3][1] * t29;
+    let t122 = mul_add(parameters.platform_point[2][1], t35, t121);
+    let t123 = mul_add(parameters.platform_point[0][1], t34, t120) + t122;
+    let t124 = mul_add(parameters.platform_point[4][1], t36, t119) + t123;
+    prepared[38][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t124);
+    let t125 = parameters.platform_point[5][2] * t30;
+    let t126 = parameters.platform_point[1][2] * t28;
+    let t127 = parameters.platform_point[3][2] * t29;
+    let t128 = mul_add(parameters.platform_point[2][2], t35, t127);
+    let t129 = mul_add(parameters.platform_point[0][2], t34, t126) + t128;
+    let t130 = mul_add(parameters.platform_point[4][2], t36, t125) + t129;
+    let t131 = mul_add(parameters.payload_com[2], parameters.payload_mass, t130);
+    prepared[38][2] = t131;
+    prepared[38][3] = t131;
+    // mass of payload and platform-side leg ends
+    let t132 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    let t133 = parameters.payload_mass + t132;
+    prepared[39][1] = t133;
+    prepared[40][0] = t133;
+    prepared[41][2] = t133;
+    prepared[41][3] = t133;
+    prepared[45][0] = t133;
+    prepared[45][1] = t133;
+    prepared[45][2] = t133;
+    prepared[45][3] = t133;
+    // mass matrix M_p of the platform
+    let t134 = t71 + (t49 + t60);
+    prepared[42][0] = t134;
+    prepared[43][1] = t134;
+    prepared[44][2] = t134;
+    prepared[44][3] = t134;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[1][1];
+    prepared[0][1] = parameters.platform_point[3][1];
+    prepared[0][2] = parameters.platform_point[5][1];
+    prepared[0][3] = parameters.platform_point[5][1];
+    prepared[1][0] = parameters.platform_point[0][1];
+    prepared[1][1] = parameters.platform_point[2][1];
+    prepared[1][2] = parameters.platform_point[4][1];
+    prepared[1][3] = parameters.platform_point[4][1];
+    prepared[2][0] = parameters.platform_point[1][0];
+    prepared[2][1] = parameters.platform_point[3][0];
+    prepared[2][2] = parameters.platform_point[5][0];
+    prepared[2][3] = parameters.platform_point[5][0];
+    prepared[3][0] = parameters.platform_point[0][0];
+    prepared[3][1] = parameters.platform_point[2][0];
+    prepared[3][2] = parameters.platform_point[4][0];
+    prepared[3][3] = parameters.platform_point[4][0];
+    prepared[4][0] = parameters.platform_point[1][2];
+    prepared[4][1] = parameters.platform_point[3][2];
+    prepared[4][2] = parameters.platform_point[5][2];
+    prepared[4][3] = parameters.platform_point[5][2];
+    prepared[5][0] = parameters.platform_point[0][2];
+    prepared[5][1] = parameters.platform_point[2][2];
+    prepared[5][2] = parameters.platform_point[4][2];
+    prepared[5][3] = parameters.platform_point[4][2];
+    prepared[6][0] = parameters.base_point[1][1];
+    prepared[6][1] = parameters.base_point[3][1];
+    prepared[6][2] = parameters.base_point[5][1];
+    prepared[6][3] = parameters.base_point[5][1];
+    prepared[7][0] = parameters.base_point[0][1];
+    prepared[7][1] = parameters.base_point[2][1];
+    prepared[7][2] = parameters.base_point[4][1];
+    prepared[7][3] = parameters.base_point[4][1];
+    prepared[8][0] = parameters.base_point[1][0];
+    prepared[8][1] = parameters.base_point[3][0];
+    prepared[8][2] = parameters.base_point[5][0];
+    prepared[8][3] = parameters.base_point[5][0];
+    prepared[9][0] = parameters.actuator_axis[1][1];
+    prepared[9][1] = parameters.actuator_axis[3][1];
+    prepared[9][2] = parameters.actuator_axis[5][1];
+    prepared[9][3] = parameters.actuator_axis[5][1];
+    prepared[10][0] = parameters.base_point[0][0];
+    prepared[10][1] = parameters.base_point[2][0];
+    prepared[10][2] = parameters.base_point[4][0];
+    prepared[10][3] = parameters.base_point[4][0];
+    prepared[11][0] = parameters.actuator_axis[0][1];
+    prepared[11][1] = parameters.actuator_axis[2][1];
+    prepared[11][2] = parameters.actuator_axis[4][1];
+    prepared[11][3] = parameters.actuator_axis[4][1];
+    prepared[12][0] = parameters.actuator_axis[1][0];
+    prepared[12][1] = parameters.actuator_axis[3][0];
+    prepared[12][2] = parameters.actuator_axis[5][0];
+    prepared[12][3] = parameters.actuator_axis[5][0];
+    prepared[13][0] = parameters.base_point[1][2];
+    prepared[13][1] = parameters.base_point[3][2];
+    prepared[13][2] = parameters.base_point[5][2];
+    prepared[13][3] = parameters.base_point[5][2];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[2][0];
+    prepared[14][2] = parameters.actuator_axis[4][0];
+    prepared[14][3] = parameters.actuator_axis[4][0];
+    prepared[15][0] = parameters.base_point[0][2];
+    prepared[15][1] = parameters.base_point[2][2];
+    prepared[15][2] = parameters.base_point[4][2];
+    prepared[15][3] = parameters.base_point[4][2];
+    prepared[16][0] = parameters.actuator_axis[1][2];
+    prepared[16][1] = parameters.actuator_axis[3][2];
+    prepared[16][2] = parameters.actuator_axis[5][2];
+    prepared[16][3] = parameters.actuator_axis[5][2];
+    prepared[17][0] = parameters.actuator_axis[0][2];
+    prepared[17][1] = parameters.actuator_axis[2][2];
+    prepared[17][2] = parameters.actuator_axis[4][2];
+    prepared[17][3] = parameters.actuator_axis[4][2];
+    prepared[23][0] = parameters.mover_mass[0];
+    prepared[23][1] = parameters.mover_mass[2];
+    prepared[23][2] = parameters.mover_mass[4];
+    prepared[23][3] = parameters.mover_mass[4];
+    prepared[25][0] = parameters.mover_mass[1];
+    prepared[25][1] = parameters.mover_mass[3];
+    prepared[25][2] = parameters.mover_mass[5];
+    prepared[25][3] = parameters.mover_mass[5];
+    prepared[28][0] = parameters.rest_length[1];
+    prepared[28][1] = parameters.rest_length[3];
+    prepared[28][2] = parameters.rest_length[5];
+    prepared[28][3] = parameters.rest_length[5];
+    prepared[29][0] = parameters.axial_damping[1];
+    prepared[29][1] = parameters.axial_damping[3];
+    prepared[29][2] = parameters.axial_damping[5];
+    prepared[29][3] = parameters.axial_damping[5];
+    prepared[30][0] = parameters.rest_length[0];
+    prepared[30][1] = parameters.rest_length[2];
+    prepared[30][2] = parameters.rest_length[4];
+    prepared[30][3] = parameters.rest_length[4];
+    prepared[31][0] = parameters.axial_damping[0];
+    prepared[31][1] = parameters.axial_damping[2];
+    prepared[31][2] = parameters.axial_damping[4];
+    prepared[31][3] = parameters.axial_damping[4];
+    prepared[32][0] = parameters.axial_stiffness[1];
+    prepared[32][1] = parameters.axial_stiffness[3];
+    prepared[32][2] = parameters.axial_stiffness[5];
+    prepared[32][3] = parameters.axial_stiffness[5];
+    prepared[33][0] = parameters.axial_stiffness[0];
+    prepared[33][1] = parameters.axial_stiffness[2];
+    prepared[33][2] = parameters.axial_stiffness[4];
+    prepared[33][3] = parameters.axial_stiffness[4];
+    prepared[36][0] = parameters.mover_offset[1];
+    prepared[36][1] = parameters.mover_offset[3];
+    prepared[36][2] = parameters.mover_offset[5];
+    prepared[36][3] = parameters.mover_offset[5];
+    prepared[37][0] = parameters.mover_offset[0];
+    prepared[37][1] = parameters.mover_offset[2];
+    prepared[37][2] = parameters.mover_offset[4];
+    prepared[37][3] = parameters.mover_offset[4];
+    prepared[39][0] = c(0.0);
+    prepared[39][2] = c(0.0);
+    prepared[39][3] = c(0.0);
+    prepared[40][1] = c(0.0);
+    prepared[40][2] = c(0.0);
+    prepared[40][3] = c(0.0);
+    prepared[41][0] = c(0.0);
+    prepared[41][1] = c(0.0);
+    prepared[42][1] = c(0.0);
+    prepared[42][2] = c(0.0);
+    prepared[42][3] = c(0.0);
+    prepared[43][0] = c(0.0);
+    prepared[43][2] = c(0.0);
+    prepared[43][3] = c(0.0);
+    prepared[44][0] = c(0.0);
+    prepared[44][1] = c(0.0);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 46x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 46],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t12 * P::splat(P::lane(t14, 1));
+    let t26 = t12 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t27 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    let t28 = t9 * P::splat(P::lane(t14, 2));
+    let t29 = mul_add(t13, P::splat(P::lane(t15, 1)), t24);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t18, P::splat(P::lane(t15, 1)), t25);
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t26);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t28);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t27);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // constant and copied elements
+    let t40 = P::load(&prepared[7]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 2, 4, 6: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // constant and copied elements
+    let t43 = P::load(&prepared[8]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t35 - t40;
+    // constant and copied elements
+    let t45 = P::load(&prepared[9]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t43;
+    // constant and copied elements
+    let t47 = P::load(&prepared[10]);
+    let t48 = P::load(&prepared[11]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = t37 + P::splat(P::lane(t22, 0)) - t47;
+    // constant and copied elements
+    let t50 = P::load(&prepared[12]);
+    let t51 = P::load(&prepared[13]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t52 = P::splat(P::lane(t22, 2)) + t39 - t51;
+    // constant and copied elements
+    let t53 = P::load(&prepared[14]);
+    let t54 = P::load(&prepared[15]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t41 - t54;
+    // constant and copied elements
+    let t56 = P::load(&prepared[16]);
+    let t57 = P::load(&prepared[17]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t52, t56, mul_add(t46, t50, t42 * t45));
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t61 = mul_add(t55, t57, mul_add(t49, t53, t44 * t48));
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t62 = P::load(&prepared[19]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t63 = neg_mul_add(t45, t58, t42);
+    let t64 = neg_mul_add(t50, t58, t46);
+    let t65 = neg_mul_add(t56, t58, t52);
+    // angular velocity of the base
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t59);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t67 = neg_mul_add(t48, t61, t44);
+    let t68 = neg_mul_add(t53, t61, t49);
+    let t69 = neg_mul_add(t57, t61, t55);
+    // velocity of the platform origin relative to the base
+    let t70 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t71 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    // angular velocity of the platform
+    let t72 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t73 = mul_add(t64, t64, t63 * t63);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t70);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t75 = mul_add(t68, t68, t67 * t67);
+    // angular velocity of the platform
+    let t76 = mul_add(t2, P::splat(platform_velocity[3]), t72);
+    // angular acceleration of the base
+    let t77 = t1 * P::splat(base_acceleration[4]);
+    // velocity of the platform origin relative to the base
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t74);
+    // angular velocity of the platform
+    let t79 = mul_add(t5, P::splat(platform_velocity[5]), t76);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t80 = sqrt(neg_mul_add(t65, t65, t60) - t73);
+    // angular acceleration of the base
+    let t81 = mul_add(t2, P::splat(base_acceleration[3]), t77);
+    // platform origin seen from the base
+    let t82 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t83 = P::triple([P::lane(t71, 1), P::lane(t71, 2), P::lane(t71, 0)]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t84 = sqrt(neg_mul_add(t69, t69, t62) - t75);
+    // angular velocity of the base
+    let t85 = P::triple([P::lane(t71, 0), P::lane(t71, 2), P::lane(t71, 0)]);
+    let t86 = P::triple([P::lane(t71, 1), P::lane(t71, 1), P::lane(t71, 2)]);
+    // angular acceleration of the base
+    let t87 = mul_add(t5, P::splat(base_acceleration[5]), t81);
+    // angular velocity of the platform relative to the base
+    let t88 = t71 - t79;
+    // platform origin seen from the base
+    let t89 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t71, 2), P::lane(t71, 0), P::lane(t71, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t91 = t85 * t86;
+    // velocity of the platform origin relative to the base
+    let t92 = mul_add(t89, t90, neg_mul_add(t82, t83, t78));
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t71, 2), P::lane(t71, 2), P::lane(t71, 0)]);
+    // acceleration of the base origin less gravity
+    let t94 = base_acceleration[0] - parameters.gravity[0];
+    let t95 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t71, 1), P::lane(t71, 0), P::lane(t71, 1)]);
+    // acceleration of the platform origin less gravity
+    let t97 = t1 * P::splat(parameters.gravity[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t98 = mul_add(t96, t96, t93 * t93);
+    // angular acceleration of the base
+    let t99 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t100 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
+    // angular velocity of the platform relative to the base
+    let t101 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // angular acceleration of the base
+    let t102 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t103 = t99 + t100;
+    // acceleration of the platform origin less gravity
+    let t104 = mul_add(t2, P::splat(parameters.gravity[0]), t97);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t105 = neg_mul_add(t36, P::splat(P::lane(t88, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration of the base origin less gravity
+    let t106 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t107 = mul_sub(t85, t86, t102);
+    // angular velocity of the platform
+    let t108 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t109 = neg_mul_add(t37, P::splat(P::lane(t88, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t110 = t83 + t108;
+    // angular velocity of the platform relative to the base
+    let t111 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // legs 2, 4, 6: reciprocal of that extent
+    let t112 = w(1.0) / t80;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t39, P::splat(P::lane(t88, 1)), P::splat(P::lane(t92, 0)));
+    // acceleration of the base origin less gravity
+    let t114 = mul_add(t5, P::splat(t106), mul_add(t2, P::splat(t94), t95));
+    // acceleration of the platform origin less gravity
+    let t115 = mul_add(t5, P::splat(parameters.gravity[2]), t104);
+    // rate of that angular velocity
+    let t116 = mul_add(t90, t111, neg_mul_add(t83, t101, t87));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t117 = mul_add(t39, P::splat(P::lane(t88, 0)), t105);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t118 = w(1.0) / t84;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t119 = neg_mul_add(t41, P::splat(P::lane(t88, 1)), P::splat(P::lane(t92, 0)));
+    let t120 = mul_add(t41, P::splat(P::lane(t88, 0)), t109);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t107, 0), -P::lane(t98, 1), P::lane(t103, 2)]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t122 = mul_add(t34, P::splat(P::lane(t88, 2)), t113);
+    let t123 = neg_mul_add(t34, P::splat(P::lane(t88, 0)), P::splat(P::lane(t92, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t124 = P::splat(P::lane(t22, 1)) * t121;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t125 = mul_add(t35, P::splat(P::lane(t88, 2)), t119);
+    let t126 = neg_mul_add(t35, P::splat(P::lane(t88, 0)), P::splat(P::lane(t92, 2)));
+    // acceleration per base coordinate of points that move with the base
+    let t127 = P::triple([-P::lane(t98, 0), P::lane(t103, 1), P::lane(t107, 2)]);
+    let t128 = P::triple([P::lane(t103, 0), P::lane(t107, 1), -P::lane(t98, 2)]);
+    // velocity of the platform origin relative to the base
+    let t129 = P::triple([P::lane(t92, 1), P::lane(t92, 2), P::lane(t92, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t130 = P::triple([P::lane(t110, 1), P::lane(t110, 2), P::lane(t110, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t131 = t39 * P::splat(P::lane(t116, 0));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t132 = mul_add(P::splat(P::lane(t22, 2)), t128, t114 + t115);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t133 = mul_add(t36, P::splat(P::lane(t88, 1)), t123);
+    // rotation of the platform seen from the base
+    let t134 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t135 = t41 * P::splat(P::lane(t116, 0));
+    // acceleration per platform coordinate of points of the platform
+    let t136 = mul_sub(t79, t134, t14 * t108);
+    // velocity of the platform origin relative to the base
+    let t137 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t138 = t34 * P::splat(P::lane(t116, 2));
+    let t139 = mul_sub(t36, P::splat(P::lane(t116, 2)), t131);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t140 = mul_add(t37, P::splat(P::lane(t88, 1)), t126);
+    // rotation of the platform seen from the base
+    let t141 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t142 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t143 = mul_add(P::splat(P::lane(t22, 0)), t127, t124) + t132;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t144 = t35 * P::splat(P::lane(t116, 2));
+    let t145 = mul_sub(t37, P::splat(P::lane(t116, 2)), t135);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t146 = mul_add(t56, t133, mul_add(t50, t122, t45 * t117));
+    // acceleration per platform coordinate of points of the platform
+    let t147 = mul_sub(t79, t141, t15 * t108);
+    let t148 = mul_sub(t79, t142, t17 * t108);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t149 = mul_sub(t39, P::splat(P::lane(t116, 1)), t138);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t150 = mul_add(t63, t112, t45);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t151 = mul_add(P::splat(P::lane(t88, 2)), t122, t139);
+    let t152 = t36 * P::splat(P::lane(t116, 1));
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t153 = mul_add(t57, t140, mul_add(t53, t125, t48 * t120));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t154 = mul_sub(t110, t137, t129 * t130) + t143;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t155 = mul_sub(t41, P::splat(P::lane(t116, 1)), t144);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t156 = mul_add(t67, t118, t48);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t157 = mul_add(P::splat(P::lane(t88, 2)), t125, t145);
+    let t158 = t37 * P::splat(P::lane(t116, 1));
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t159 = mul_add(t64, t112, t50);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t160 = neg_mul_add(t45, t146, t117);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t161 = mul_add(P::splat(P::lane(t88, 1)), t133, t149);
+    let t162 = mul_sub(t34, P::splat(P::lane(t116, 0)), t152);
+    // angular velocity of the platform
+    let t163 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t164 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t165 = neg_mul_add(P::splat(P::lane(t88, 0)), t133, t151);
+    // legs 2, 4, 6: actuator length d
+    let t166 = t58 - t80;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t167 = mul_add(t68, t118, t53);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t168 = P::splat(base_rotation[0][1]) * t48;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t169 = neg_mul_add(t48, t153, t120);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t170 = mul_add(P::splat(P::lane(t88, 1)), t140, t155);
+    let t171 = mul_sub(t35, P::splat(P::lane(t116, 0)), t158);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t172 = P::splat(base_rotation[0][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t173 = P::splat(base_rotation[1][1]) * t48;
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t174 = neg_mul_add(t50, t146, t122);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t175 = neg_mul_add(P::splat(P::lane(t88, 0)), t140, t157);
+    // legs 1, 3, 5: actuator length d
+    let t176 = t61 - t84;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t177 = mul_add(t65, t112, t56);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t178 = P::splat(base_rotation[2][1]) * t48;
+    // acceleration per platform coordinate of points of the platform
+    let t179 = P::triple([P::lane(t147, 2), P::lane(t147, 0), P::lane(t147, 1)]);
+    let t180 = P::triple([P::lane(t148, 2), P::lane(t148, 0), P::lane(t148, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t181 = neg_mul_add(P::splat(P::lane(t88, 2)), t117, t161);
+    let t182 = mul_add(P::splat(P::lane(t88, 0)), t117, t162);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t183 = P::splat(base_rotation[0][1]) * t156;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t184 = mul_add(P::splat(base_rotation[0][0]), t53, t168);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t185 = neg_mul_add(t53, t153, t125);
+    // acceleration per platform coordinate of points of the platform
+    let t186 = mul_sub(t108, t136, t163 * t164);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t187 = P::splat(P::lane(t154, 1)) + t165;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t188 = mul_add(t45, t166, t21);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t189 = mul_add(t69, t118, t57);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t190 = P::splat(base_rotation[0][1]) * t150;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t191 = P::splat(base_rotation[1][1]) * t156;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t192 = P::load(&prepared[20]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t193 = mul_add(P::splat(base_rotation[0][0]), t50, t172);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t194 = mul_add(P::splat(base_rotation[1][0]), t53, t173);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t195 = P::splat(base_rotation[1][1]) * t45;
+    let t196 = P::splat(base_rotation[2][1]) * t45;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t197 = neg_mul_add(P::splat(P::lane(t88, 2)), t120, t170);
+    let t198 = mul_add(P::splat(P::lane(t88, 0)), t120, t171);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t199 = P::splat(base_rotation[2][1]) * t156;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t200 = P::load(&prepared[21]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t201 = mul_add(P::splat(base_rotation[2][0]), t53, t178);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t202 = neg_mul_add(t56, t146, t133);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t203 = P::splat(P::lane(t154, 1)) + t175;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t204 = mul_add(t48, t176, t40);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t205 = mul_add(P::splat(base_rotation[0][0]), t167, t183);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t206 = mul_add(t133, t177, mul_add(t122, t159, t117 * t150));
+    // acceleration per platform coordinate of points of the platform
+    let t207 = mul_sub(t108, t147, t163 * t179);
+    let t208 = mul_sub(t108, t148, t163 * t180);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t209 = t181 + P::splat(P::lane(t154, 0));
+    let t210 = neg_mul_add(P::splat(P::lane(t88, 1)), t122, t182);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t211 = mul_add(t50, t166, t43);
+    let t212 = mul_add(t56, t166, t51);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t213 = mul_add(P::splat(base_rotation[0][0]), t159, t190);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t214 = mul_add(P::splat(base_rotation[1][0]), t167, t191);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t215 = P::splat(base_rotation[1][1]) * t150;
+    let t216 = P::splat(base_rotation[2][1]) * t150;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t217 = P::load(&prepared[22]);
+    // constant and copied elements
+    let t218 = P::load(&prepared[23]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t219 = mul_add(P::splat(base_rotation[1][0]), t50, t195);
+    let t220 = mul_add(P::splat(base_rotation[2][0]), t50, t196);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t221 = neg_mul_add(t57, t153, t140);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t222 = P::splat(P::lane(t98, 1)) * t188;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t223 = mul_add(P::splat(base_rotation[2][0]), t167, t199);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t224 = P::load(&prepared[24]);
+    // constant and copied elements
+    let t225 = P::load(&prepared[25]);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t226 = mul_add(t140, t189, mul_add(t125, t167, t120 * t156));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t227 = P::splat(P::lane(t154, 0)) + t197;
+    let t228 = neg_mul_add(P::splat(P::lane(t88, 1)), t125, t198);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t229 = mul_add(t53, t176, t47);
+    let t230 = mul_add(t57, t176, t54);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t231 = P::splat(P::lane(t107, 0)) * t188;
+    let t232 = P::splat(P::lane(t103, 2)) * t188;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t233 = mul_add(t202, t202, mul_add(t174, t174, t160 * t160));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t234 = P::splat(P::lane(t107, 0)) * t204;
+    let t235 = P::splat(P::lane(t98, 1)) * t204;
+    let t236 = P::splat(P::lane(t103, 2)) * t204;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t237 = mul_add(P::splat(base_rotation[0][2]), t189, t205);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = mul_add(P::splat(base_rotation[1][0]), t159, t215);
+    let t239 = mul_add(P::splat(base_rotation[2][0]), t159, t216);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t240 = t146 - t206;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t241 = P::splat(P::lane(t154, 2)) + t210;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t242 = mul_add(P::splat(P::lane(t107, 1)), t212, P::splat(P::lane(t114, 1)));
+    let t243 = t56 * P::splat(P::lane(t71, 0));
+    // legs 2, 4, 6: gradient of the actuator length
+    let t244 = mul_add(P::splat(base_rotation[0][2]), t177, t213);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t245 = mul_add(P::splat(base_rotation[1][2]), t189, t214);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t246 = P::load(&prepared[26]);
+    let t247 = t217 * mul_add(P::splat(base_rotation[0][2]), t57, t184);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t248 = mul_add(t221, t221, mul_add(t185, t185, t169 * t169));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t249 = mul_add(P::splat(P::lane(t103, 0)), t212, P::splat(P::lane(t114, 0)));
+    let t250 = t45 * P::splat(P::lane(t71, 2));
+    let t251 = neg_mul_add(P::splat(P::lane(t98, 2)), t212, P::splat(P::lane(t114, 2)));
+    let t252 = t50 * P::splat(P::lane(t71, 1));
+    let t253 = t9 * P::splat(P::lane(t186, 1));
+    // legs 1, 3, 5: gradient of the actuator length
+    let t254 = mul_add(P::splat(base_rotation[2][2]), t189, t223);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t255 = P::load(&prepared[27]);
+    let t256 = t224 * mul_add(P::splat(base_rotation[0][2]), t56, t193);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t257 = t217 * mul_add(P::splat(base_rotation[1][2]), t57, t194);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t258 = t153 - t226;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t259 = P::splat(P::lane(t154, 2)) + t228;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t260 = mul_add(P::splat(P::lane(t103, 0)), t230, P::splat(P::lane(t114, 0)));
+    let t261 = t48 * P::splat(P::lane(t71, 2));
+    let t262 = mul_add(P::splat(P::lane(t107, 1)), t230, P::splat(P::lane(t114, 1)));
+    let t263 = t57 * P::splat(P::lane(t71, 0));
+    let t264 = neg_mul_add(P::splat(P::lane(t98, 2)), t230, P::splat(P::lane(t114, 2)));
+    let t265 = t53 * P::splat(P::lane(t71, 1));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t266 = t217 * mul_add(P::splat(base_rotation[2][2]), t57, t201);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t267 = mul_add(t177, t241, mul_add(t159, t209, t150 * t187));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t268 = mul_sub(t50, P::splat(P::lane(t71, 2)), t243);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t269 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t270 = mul_add(P::splat(base_rotation[1][2]), t177, t238);
+    let t271 = mul_add(P::splat(base_rotation[2][2]), t177, t239);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t272 = mul_sub(t237, t246, t247);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t273 = t12 * P::splat(P::lane(t186, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t274 = t206 * w(2.0);
+    let t275 = mul_sub(t56, P::splat(P::lane(t71, 1)), t250);
+    let t276 = mul_sub(P::splat(P::lane(t103, 1)), t211, t222) + t242;
+    let t277 = mul_sub(t45, P::splat(P::lane(t71, 0)), t252);
+    let t278 = t9 * P::splat(P::lane(t186, 0));
+    let t279 = neg_mul_add(t19, P::splat(P::lane(t208, 1)), P::splat(P::lane(t115, 1)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t280 = P::splat(platform_rotation[0][1]) * t12;
+    let t281 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t282 = mul_sub(t244, t255, t256);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t283 = mul_sub(t245, t246, t257);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t284 = t224 * mul_add(P::splat(base_rotation[1][2]), t56, t219);
+    let t285 = t224 * mul_add(P::splat(base_rotation[2][2]), t56, t220);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t286 = mul_add(t189, t259, mul_add(t167, t227, t156 * t203));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t287 = mul_sub(t57, P::splat(P::lane(t71, 1)), t261);
+    let t288 = mul_sub(t53, P::splat(P::lane(t71, 2)), t263);
+    let t289 = mul_sub(t48, P::splat(P::lane(t71, 0)), t265);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t290 = t249 - mul_sub(P::splat(P::lane(t98, 0)), t211, t231);
+    let t291 = mul_add(P::splat(P::lane(t107, 2)), t211, t232) + t251;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t292 = mul_sub(t246, t254, t266);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t293 = t260 - mul_sub(P::splat(P::lane(t98, 0)), t229, t234);
+    let t294 = t226 * w(2.0);
+    let t295 = mul_sub(P::splat(P::lane(t103, 1)), t229, t235) + t262;
+    let t296 = mul_add(P::splat(P::lane(t107, 2)), t229, t236) + t264;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t297 = mul_add(P::splat(platform_rotation[2][0]), t18, t269);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t298 = neg_mul_add(t112, mul_add(t240, t240, t233), t267);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t299 = t12 * P::splat(P::lane(t186, 0));
+    let t300 = neg_mul_add(t20, P::splat(P::lane(t208, 1)), P::splat(P::lane(t115, 1)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t301 = neg_mul_add(t19, P::splat(P::lane(t208, 0)), P::splat(P::lane(t115, 0)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t302 = mul_add(P::splat(platform_rotation[0][0]), t18, t280);
+    let t303 = mul_add(P::splat(platform_rotation[1][0]), t18, t281);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t304 = mul_sub(t255, t270, t284);
+    let t305 = mul_sub(t255, t271, t285);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t306 = t9 * P::splat(P::lane(t186, 2));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t307 = neg_mul_add(t118, mul_add(t258, t258, t248), t286);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t308 = t254 * t292;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t309 = neg_mul_add(t20, P::splat(P::lane(t208, 0)), P::splat(P::lane(t115, 0)));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t310 = P::splat(platform_rotation[0][1]) * t9;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t311 = mul_add(P::splat(platform_rotation[2][2]), t20, t297);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t312 = mul_add(t237, t292, t254 * t272);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t313 = t12 * P::splat(P::lane(t186, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t314 = neg_mul_add(t45, t298, mul_add(t268, t274, t276));
+    let t315 = t301 - mul_add(t13, P::splat(P::lane(t207, 0)), t278);
+    let t316 = t45 * (t279 - mul_add(t13, P::splat(P::lane(t207, 1)), t253));
+    let t317 = neg_mul_add(t19, P::splat(P::lane(t208, 2)), P::splat(P::lane(t115, 2)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t318 = mul_add(P::splat(platform_rotation[0][2]), t20, t302);
+    let t319 = mul_add(P::splat(platform_rotation[1][2]), t20, t303);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t320 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t321 = t237 * t272;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t322 = w(2.0) * (t244 * t282);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t323 = mul_add(t237, t283, t245 * t272);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t324 = mul_add(t244, t304, t270 * t282);
+    let t325 = mul_add(t244, t305, t271 * t282);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t326 = mul_add(t245, t292, t254 * t283);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t327 = neg_mul_add(t50, t298, mul_add(t274, t275, t290));
+    let t328 = neg_mul_add(t56, t298, mul_add(t274, t277, t291));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t329 = t245 * t283;
+    let t330 = w(2.0) * t308;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t331 = neg_mul_add(t53, t307, mul_add(t287, t294, t293));
+    let t332 = neg_mul_add(t48, t307, mul_add(t288, t294, t295));
+    let t333 = neg_mul_add(t57, t307, mul_add(t289, t294, t296));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t334 = mul_add(P::splat(platform_rotation[0][0]), t13, t310);
+    let t335 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t336 = t309 - mul_add(t18, P::splat(P::lane(t207, 0)), t299);
+    let t337 = t48 * (t300 - mul_add(t18, P::splat(P::lane(t207, 1)), t273));
+    let t338 = neg_mul_add(t20, P::splat(P::lane(t208, 2)), P::splat(P::lane(t115, 2)));
+    // constant and copied elements
+    let t339 = P::load(&prepared[28]);
+    let t340 = P::load(&prepared[29]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t341 = mul_add(P::splat(platform_rotation[1][0]), t13, t320);
+    // mass matrix of the legs
+    let t342 = mul_add(w(2.0), t321, t322);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t343 = t317 - mul_add(t13, P::splat(P::lane(t207, 2)), t306);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t344 = w(2.0) * t329;
+    // mass matrix of the legs
+    let t345 = t323 + t324;
+    let t346 = t312 + t325;
+    let t347 = t318 * t326;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t348 = t224 * t327;
+    let t349 = t224 * t314;
+    let t350 = t224 * t328;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t351 = mul_add(P::splat(platform_rotation[2][0]), t13, t335);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t352 = t217 * t331;
+    let t353 = t217 * t332;
+    let t354 = t217 * t333;
+    // constant and copied elements
+    let t355 = P::load(&prepared[30]);
+    let t356 = P::load(&prepared[31]);
+    let t357 = P::load(&prepared[32]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t358 = mul_add(P::splat(platform_rotation[0][2]), t19, t334);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t359 = mul_add(t270, t305, t271 * t304);
+    // mass matrix of the legs
+    let t360 = mul_sub(t318, t330, t311 * t312);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t361 = t338 - mul_add(t18, P::splat(P::lane(t207, 2)), t313);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t362 = mul_add(t56, t343, mul_add(t50, t315, t316));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t363 = mul_add(t166 - t339, t357, t206 * t340);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t364 = mul_add(P::splat(platform_rotation[1][2]), t19, t341);
+    // mass matrix of the legs
+    let t365 = mul_sub(t312, t319, t347);
+    let t366 = mul_sub(t311, t326, t319 * t330);
+    // inertia force less weight, without the actuators' own shares
+    let t367 = mul_add(t217, t331, t348);
+    let t368 = mul_add(t217, t332, t349);
+    let t369 = mul_add(t217, t333, t350);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t370 = w(2.0) * (t270 * t304);
+    // constant and copied elements
+    let t371 = P::load(&prepared[33]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t372 = mul_add(P::splat(platform_rotation[2][2]), t19, t351);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t373 = w(2.0) * t321;
+    // mass matrix of the legs
+    let t374 = mul_sub(t311, t323, t347);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t375 = mul_add(t57, t361, mul_add(t53, t336, t337));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t376 = mul_add(t176 - t355, t371, t226 * t356);
+    // mass matrix of the legs
+    let t377 = t358 * t359;
+    let t378 = mul_sub(t311, t344, t319 * t326);
+    let t379 = mul_sub(t319, t323, t318 * t344);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t380 = mul_add(t56, t328, mul_add(t50, t327, t45 * t314));
+    let t381 = mul_add(t277, t277, mul_add(t275, t275, t268 * t268));
+    // mass matrix of the legs
+    let t382 = mul_add(w(2.0), t329, t370);
+    let t383 = P::triple([P::lane(t342, 0), P::lane(t345, 0), P::lane(t346, 0)]);
+    let t384 = P::triple([P::lane(t342, 1), P::lane(t345, 1), P::lane(t346, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t385 = mul_sub(t35, t354, t41 * t353);
+    let t386 = mul_sub(t41, t352, t37 * t354);
+    let t387 = mul_sub(t37, t353, t35 * t352);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t388 = w(2.0) * (t271 * t305);
+    // mass matrix of the legs
+    let t389 = t326 + t359;
+    let t390 = mul_sub(t324, t372, t377);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t391 = mul_add(t57, t333, mul_add(t53, t331, t48 * t332));
+    let t392 = mul_add(t289, t289, mul_add(t287, t287, t288 * t288));
+    // constant and copied elements
+    let t393 = P::load(&prepared[36]);
+    // mass matrix of the legs
+    let t394 = mul_sub(t370, t372, t359 * t364);
+    let t395 = mul_sub(t324, t364, t358 * t370);
+    let t396 = P::triple([P::lane(t342, 2), P::lane(t345, 2), P::lane(t346, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t397 = mul_add(t381, t393, t380);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t398 = mul_add(t200, t380, mul_add(t224, t362, t363));
+    // mass matrix of the legs
+    let t399 = mul_sub(t312, t318, t311 * t373);
+    let t400 = mul_sub(t319, t373, t318 * t323);
+    let t401 = t383 + t384 + t396;
+    // inertia force less weight, without the actuators' own shares
+    let t402 = P::triple([P::lane(t367, 0), P::lane(t368, 0), P::lane(t369, 0)]);
+    let t403 = P::triple([P::lane(t367, 1), P::lane(t368, 1), P::lane(t369, 1)]);
+    // constant and copied elements
+    let t404 = P::load(&prepared[37]);
+    // mass matrix of the legs
+    let t405 = mul_add(t372, t390, mul_add(t311, t374, t319 * t360));
+    let t406 = mul_sub(t358, t388, t325 * t372);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t407 = mul_add(t392, t404, t391);
+    // first moments by platform coordinate of the payload's inertia force
+    let t408 = mul_add(t207, P::splat(prepared[35][0]), t186 * P::splat(prepared[34][0]));
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t409 = mul_add(t192, t391, mul_add(t217, t375, t376));
+    // mass matrix of the legs
+    let t410 = mul_sub(t325, t364, t377);
+    let t411 = mul_add(t372, t394, mul_sub(t311, t378, t319 * t366));
+    let t412 = mul_sub(t359, t372, t364 * t388);
+    let t413 = mul_add(t372, t395, mul_sub(t311, t379, t319 * t365));
+    // inertia force less weight, without the actuators' own shares
+    let t414 = P::triple([P::lane(t367, 2), P::lane(t368, 2), P::lane(t369, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t415 = mul_add(t225, t397, t398);
+    // mass matrix of the legs
+    let t416 = mul_add(w(2.0), t308, t388);
+    let t417 = P::lane(t389, 1) + P::lane(t389, 0);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t418 = neg_mul_add(t39, t349, mul_add(t34, t350, t385));
+    let t419 = neg_mul_add(t36, t350, mul_add(t39, t348, t386));
+    let t420 = neg_mul_add(t34, t348, mul_add(t36, t349, t387));
+    // mass matrix of the legs
+    let t421 = mul_add(t324, t372, mul_sub(t311, t323, t312 * t319));
+    let t422 = mul_add(t364, t406, t405);
+    // first moments by platform coordinate of the payload's inertia force
+    let t423 = mul_add(t208, P::splat(prepared[34][2]), t408);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t424 = mul_add(t218, t407, t409);
+    // mass matrix of the legs
+    let t425 = neg_mul_add(t364, t412, t411);
+    let t426 = neg_mul_add(t364, t410, t413);
+    let t427 = P::triple([P::lane(t401, 1), P::lane(t382, 2), P::lane(t389, 2)]);
+    let t428 = P::triple([c(0.0), P::lane(t382, 1) + P::lane(t382, 0), t417]);
+    // inertia force less weight, without the actuators' own shares
+    let t429 = mul_add(t115, P::splat(prepared[45][0]), t402 + t403 + t414);
+    // mass matrix of the legs
+    let t430 = mul_sub(t322, t364, t324 * t358);
+    let t431 = t427 + t428;
+    // mass matrix M_p of the platform
+    let t432 = t378 + t394;
+    // mass matrix of the legs
+    let t433 = mul_sub(t325, t358, t322 * t372);
+    // mass matrix M_p of the platform
+    let t434 = t366 + t412;
+    // mass matrix of the legs
+    let t435 = neg_mul_add(t325, t364, t421);
+    // first moments by platform coordinate of the payload's inertia force
+    let t436 = mul_sub(t115, P::splat(prepared[38][0]), t423);
+    let t437 = mul_add(t207, P::splat(prepared[34][0]), t186 * P::splat(prepared[35][1]));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t438 = mul_add(t237, t424, t244 * t415);
+    let t439 = mul_add(t245, t424, t270 * t415);
+    let t440 = mul_add(t254, t424, t271 * t415);
+    // mass matrix M_p of the platform
+    let t441 = platform_rotation[2][1] * prepared[38][1];
+    // mass matrix of the legs
+    let t442 = mul_add(t358, t406, mul_sub(t318, t360, t311 * t399));
+    let t443 = mul_add(t358, t410, mul_sub(t318, t365, t311 * t400));
+    // mass matrix M_p of the platform
+    let t444 = P::load(&prepared[39]);
+    // inertia force less weight, without the actuators' own shares
+    let t445 = mul_sub(t207, P::splat(prepared[38][0]), t429);
+    // mass matrix M_p of the platform
+    let t446 = platform_rotation[1][1] * prepared[38][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t447 = P::triple([P::lane(t254, 2), P::lane(t254, 0), P::lane(t254, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t448 = P::triple([P::lane(t237, 1), P::lane(t237, 2), P::lane(t237, 0)]);
+    // mass matrix M_p of the platform
+    let t449 = t400 + t430;
+    let t450 = t360 + t406;
+    // mass matrix of the legs
+    let t451 = t431 + t444;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t452 = P::triple([P::lane(t418, 0), P::lane(t419, 0), P::lane(t420, 0)]);
+    let t453 = P::triple([P::lane(t418, 1), P::lane(t419, 1), P::lane(t420, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t454 = P::triple([P::lane(t254, 1), P::lane(t254, 2), P::lane(t254, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t455 = P::triple([P::lane(t245, 2), P::lane(t245, 0), P::lane(t245, 1)]);
+    // mass matrix M_p of the platform
+    let t456 = t399 + t433;
+    let t457 = t379 + t395;
+    let t458 = P::mul_add(platform_rotation[2][0], prepared[38][0], t441);
+    // mass of payload and platform-side leg ends
+    let t459 = P::load(&prepared[40]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t460 = mul_add(t208, P::splat(prepared[34][1]), t437);
+    // mass matrix M_p of the platform
+    let t461 = P::mul_add(platform_rotation[1][0], prepared[38][0], t446);
+    let t462 = platform_rotation[0][1] * prepared[38][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t463 = P::triple([P::lane(t237, 2), P::lane(t237, 0), P::lane(t237, 1)]);
+    // mass matrix of the legs
+    let t464 = t365 + t410;
+    let t465 = neg_mul_add(t372, t433, t442);
+    let t466 = neg_mul_add(t372, t430, t443);
+    let t467 = P::triple([P::lane(t401, 2), P::lane(t431, 2), P::lane(t416, 2)]);
+    let t468 = P::triple([c(0.0), c(0.0), P::lane(t416, 1) + P::lane(t416, 0)]);
+    let t469 = P::triple([P::lane(t425, 0), -P::lane(t422, 0), P::lane(t426, 0)]);
+    let t470 = P::triple([P::lane(t425, 1), -P::lane(t422, 1), P::lane(t426, 1)]);
+    // mass matrix M_p of the platform
+    let t471 = t401 + t459;
+    // inertia force less weight, without the actuators' own shares
+    let t472 = mul_add(t186, P::splat(prepared[38][1]), t445);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t473 = P::triple([P::lane(t418, 2), P::lane(t419, 2), P::lane(t420, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t474 = t451 * P::splat(platform_acceleration[1]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t475 = P::triple([P::lane(t245, 1), P::lane(t245, 2), P::lane(t245, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t476 = mul_sub(t454, t463, t447 * t448);
+    // mass matrix of the legs
+    let t477 = t374 + t390;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t478 = t452 + t453 + t473;
+    // force along the actuator that balances the remaining wrench
+    let t479 = mul_sub(t447, t475, t454 * t455);
+    // mass matrix M_p of the platform
+    let t480 = P::mul_add(platform_rotation[2][2], prepared[38][2], t458);
+    let t481 = P::mul_add(platform_rotation[0][0], prepared[38][0], t462);
+    // constant and copied elements
+    let t482 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t483 = P::triple([P::lane(t425, 2), -P::lane(t422, 2), P::lane(t426, 2)]);
+    let t484 = P::load(&prepared[41]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t485 = mul_sub(t115, P::splat(prepared[38][1]), t460);
+    let t486 = mul_add(t207, P::splat(prepared[34][2]), t186 * P::splat(prepared[34][1]));
+    let t487 = P::triple([P::lane(t436, 2), P::lane(t436, 0), P::lane(t436, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t488 = P::triple([P::lane(t438, 0), P::lane(t439, 0), P::lane(t440, 0)]);
+    let t489 = P::triple([P::lane(t438, 1), P::lane(t439, 1), P::lane(t440, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t490 = mul_add(t471, P::splat(platform_acceleration[0]), t474);
+    // mass matrix M_p of the platform
+    let t491 = P::mul_add(platform_rotation[1][2], prepared[38][2], t461);
+    // inertia less external wrench that the actuators must balance
+    let t492 = P::splat(parameters.payload_com[1]) * t482;
+    // mass matrix of the legs
+    let t493 = mul_add(t364, t430, mul_sub(t319, t400, t318 * t379));
+    let t494 = t469 + t470 + t483;
+    let t495 = t467 + t468 + t484;
+    // inertia force less weight, without the actuators' own shares
+    let t496 = mul_add(t208, P::splat(prepared[38][2]), t472);
+    // constant and copied elements
+    let t497 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t498 = P::triple([P::lane(t438, 2), P::lane(t439, 2), P::lane(t440, 2)]);
+    // mass matrix M_p of the platform
+    let t499 = P::mul_add(platform_rotation[0][2], prepared[38][2], t481);
+    // inertia less external wrench that the actuators must balance
+    let t500 = mul_add(P::splat(parameters.payload_com[0]), t497, t492);
+    // force along the actuator that balances the remaining wrench
+    let t501 = t270 * P::splat(P::lane(t476, 0));
+    // mass matrix M_p of the platform
+    let t502 = platform_rotation[0][1] * prepared[34][0];
+    // first moments by platform coordinate of the payload's inertia force
+    let t503 = mul_add(t208, P::splat(prepared[35][2]), t486);
+    // rotation of the platform seen from the base
+    let t504 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t505 = P::triple([P::lane(t436, 1), P::lane(t436, 2), P::lane(t436, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t506 = mul_add(t495, P::splat(platform_acceleration[2]), t490);
+    // mass matrix M_p of the platform
+    let t507 = t491 - (P::lane(t434, 2) + (P::lane(t434, 1) + P::lane(t434, 0)));
+    mass_matrix_p[2][3] = t507;
+    mass_matrix_p[3][2] = t507;
+    // force along the actuator that balances the remaining wrench
+    let t508 = mul_sub(t448, t455, t463 * t475);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t509 = mul_sub(t271, t364, t270 * t372);
+    let t510 = mul_sub(t244, t372, t271 * t358);
+    let t511 = mul_sub(t270, t358, t244 * t364);
+    // mass matrix of the legs
+    let t512 = neg_mul_add(t358, t395, t493);
+    let t513 = P::lane(t466, 1) + P::lane(t466, 0);
+    // moment of the inertia force about the platform origin
+    let t514 = neg_mul_add(t504, t505, mul_add(t141, t487, t478));
+    // constant and copied elements
+    let t515 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t516 = -(P::lane(t435, 2) + (P::lane(t435, 1) + P::lane(t435, 0)));
+    mass_matrix_p[0][3] = t516;
+    mass_matrix_p[3][0] = t516;
+    // mass matrix M_p of the platform
+    let t517 = -(t480 + (P::lane(t432, 2) + (P::lane(t432, 1) + P::lane(t432, 0))));
+    mass_matrix_p[1][3] = t517;
+    mass_matrix_p[3][1] = t517;
+    // constant and copied elements
+    let t518 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t519 = mul_add(t244, P::splat(P::lane(t479, 0)), t501);
+    let t520 = P::lane(t237, 1) * P::lane(t479, 1);
+    // mass matrix M_p of the platform
+    let t521 = P::mul_add(platform_rotation[0][0], prepared[35][0], t502);
+    // constant and copied elements
+    let t522 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t523 = mul_add(P::splat(P::lane(t496, 0)), t515, t488 + t489 + t498);
+    // mass matrix of the legs
+    let t524 = P::triple([t516, t517, t507]);
+    // inertia less external wrench that the actuators must balance
+    let t525 = mul_add(P::splat(parameters.payload_com[2]), t518, t500);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t526 = mul_sub(t254, t319, t245 * t311);
+    let t527 = mul_sub(t237, t311, t254 * t318);
+    let t528 = mul_sub(t245, t318, t237 * t319);
+    // mass matrix of the legs
+    let t529 = P::triple([P::lane(t494, 1), P::lane(t465, 2), P::lane(t466, 2)]);
+    let t530 = P::triple([c(0.0), P::lane(t465, 1) + P::lane(t465, 0), t513]);
+    // mass matrix M_p of the platform
+    let t531 = platform_rotation[0][1] * prepared[35][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t532 = mul_sub(t115, P::splat(prepared[38][2]), t503);
+    let t533 = P::triple([P::lane(t485, 2), P::lane(t485, 0), P::lane(t485, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t534 = mul_add(t524, P::splat(platform_acceleration[3]), t506);
+    // mass matrix M_p of the platform
+    let t535 = t480 - (P::lane(t456, 2) + (P::lane(t456, 1) + P::lane(t456, 0)));
+    mass_matrix_p[0][4] = t535;
+    mass_matrix_p[4][0] = t535;
+    // mass matrix of the legs
+    let t536 = P::lane(t477, 2) + (P::lane(t477, 1) + P::lane(t477, 0));
+    mass_matrix_p[1][4] = t536;
+    mass_matrix_p[4][1] = t536;
+    // mass matrix M_p of the platform
+    let t537 = t499 - (P::lane(t457, 2) + (P::lane(t457, 1) + P::lane(t457, 0)));
+    mass_matrix_p[1][5] = t537;
+    mass_matrix_p[5][1] = t537;
+    // mass matrix of the legs
+    let t538 = t529 + t530;
+    // force along the actuator that balances the remaining wrench
+    let t539 = P::mul_add(P::lane(t237, 0), P::lane(t479, 0), t520);
+    // constant and copied elements
+    let t540 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t541 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t542 = -(t499 + (P::lane(t450, 2) + (P::lane(t450, 1) + P::lane(t450, 0))));
+    mass_matrix_p[2][4] = t542;
+    mass_matrix_p[4][2] = t542;
+    let t543 = -(t491 + (P::lane(t449, 2) + (P::lane(t449, 1) + P::lane(t449, 0))));
+    mass_matrix_p[0][5] = t543;
+    mass_matrix_p[5][0] = t543;
+    // mass matrix of the legs
+    let t544 = -(P::lane(t464, 2) + (P::lane(t464, 1) + P::lane(t464, 0)));
+    mass_matrix_p[2][5] = t544;
+    mass_matrix_p[5][2] = t544;
+    // force along the actuator that balances the remaining wrench
+    let t545 = mul_add(t271, P::splat(P::lane(t508, 0)), t519);
+    let t546 = t270 * P::splat(P::lane(t476, 1));
+    // mass matrix M_p of the platform
+    let t547 = P::mul_add(platform_rotation[0][2], prepared[34][2], t521);
+    // constant and copied elements
+    let t548 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t549 = P::mul_add(platform_rotation[0][0], prepared[34][0], t531);
+    let t550 = mul_add(P::splat(prepared[35][0]), t540, P::splat(prepared[34][0]) * t522);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t551 = mul_add(P::splat(P::lane(t496, 1)), t541, t523);
+    // mass matrix M_p of the platform
+    let t552 = P::triple([t535, t536, t542]);
+    let t553 = P::triple([t543, t537, t544]);
+    // constant and copied elements
+    let t554 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t555 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t556 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t557 = t494 + P::load(&prepared[42]);
+    let t558 = platform_rotation[0][1] * prepared[34][1];
+    // rotation of the platform seen from the base
+    let t559 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t560 = P::triple([P::lane(t485, 1), P::lane(t485, 2), P::lane(t485, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t561 = mul_add(t424, t526, t415 * t509);
+    let t562 = mul_add(t424, t527, t415 * t510);
+    let t563 = mul_add(t424, t528, t415 * t511);
+    // inertia less external wrench that the actuators must balance
+    let t564 = mul_sub(t553, P::splat(platform_acceleration[5]), t554);
+    // moment of the inertia force about the platform origin
+    let t565 = neg_mul_add(t559, t560, mul_add(t134, t533, t514));
+    // force along the actuator that balances the remaining wrench
+    let t566 = mul_add(t244, P::splat(P::lane(t479, 1)), t546);
+    let t567 = P::mul_add(P::lane(t237, 2), P::lane(t479, 2), t539);
+    // constant and copied elements
+    let t568 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t569 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t570 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t571 = t270 * P::splat(P::lane(t476, 2));
+    // mass matrix M_p of the platform
+    let t572 = neg_mul_add(P::splat(t547), t568, t557);
+    let t573 = P::mul_add(platform_rotation[0][2], prepared[34][1], t549);
+    let t574 = P::mul_add(platform_rotation[0][0], prepared[34][2], t558);
+    let t575 = P::load(&prepared[43]);
+    let t576 = mul_add(P::splat(prepared[34][0]), t540, P::splat(prepared[35][1]) * t522);
+    let t577 = mul_add(P::splat(prepared[35][0]), t568, P::splat(prepared[34][0]) * t548);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t578 = mul_add(P::splat(P::lane(t496, 2)), t570, t551);
+    // constant and copied elements
+    let t579 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t580 = P::triple([P::lane(t525, 1), P::lane(t525, 2), P::lane(t525, 0)]);
+    // mass matrix of the legs
+    let t581 = P::triple([P::lane(t494, 2), P::lane(t538, 2), P::lane(t512, 2)]);
+    let t582 = P::triple([c(0.0), c(0.0), P::lane(t512, 1) + P::lane(t512, 0)]);
+    let t583 = t538 + t575;
+    // first moments by platform coordinate of the payload's inertia force
+    let t584 = P::triple([P::lane(t532, 2), P::lane(t532, 0), P::lane(t532, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t585 = mul_add(t552, P::splat(platform_acceleration[4]), t534) + t564;
+    // mass matrix M_p of the platform
+    let t586 = P::triple([t517, t536, t537]);
+    // inertia less external wrench that the actuators must balance
+    let t587 = neg_mul_add(t579, t580, mul_add(t525, t556, t555));
+    let t588 = P::splat(platform_acceleration[1]) * t586;
+    // force along the actuator that balances the remaining wrench
+    let t589 = mul_add(t271, P::splat(P::lane(t508, 1)), t566);
+    let t590 = mul_add(t244, P::splat(P::lane(t479, 2)), t571);
+    let t591 = mul_sub(t510, P::splat(t567), t545 * P::splat(P::lane(t527, 0)));
+    let t592 = mul_sub(t511, P::splat(t567), t545 * P::splat(P::lane(t528, 0)));
+    // constant and copied elements
+    let t593 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t594 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t595 = neg_mul_add(t548, P::splat(t573), t572);
+    let t596 = P::mul_add(platform_rotation[0][2], prepared[35][2], t574);
+    let t597 = neg_mul_add(mul_add(P::splat(prepared[34][2]), t569, t550), t594, t583);
+    let t598 = mul_add(P::splat(prepared[34][2]), t540, P::splat(prepared[34][1]) * t522);
+    let t599 = P::load(&prepared[44]);
+    let t600 = mul_add(P::splat(prepared[34][2]), t593, t577);
+    let t601 = mul_add(P::splat(prepared[34][0]), t568, P::splat(prepared[35][1]) * t548);
+    // inertia less external wrench that the actuators must balance
+    let t602 = t578 + t585;
+    // mass matrix of the legs
+    let t603 = P::triple([t516, t535, t543]);
+    // mass matrix M_p of the platform
+    let t604 = P::triple([t507, t542, t544]);
+    // mass matrix of the legs
+    let t605 = t581 + t582 + t599;
+    // rotation of the platform seen from the base
+    let t606 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t607 = P::triple([P::lane(t532, 1), P::lane(t532, 2), P::lane(t532, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t608 = P::triple([P::lane(t561, 0), P::lane(t562, 0), P::lane(t563, 0)]);
+    let t609 = P::triple([P::lane(t561, 1), P::lane(t562, 1), P::lane(t563, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t610 = neg_mul_add(P::splat(platform_acceleration[2]), t604, t587);
+    // moment of the inertia force about the platform origin
+    let t611 = neg_mul_add(t606, t607, mul_add(t142, t584, t565));
+    // force along the actuator that balances the remaining wrench
+    let t612 = mul_add(t271, P::splat(P::lane(t508, 2)), t590);
+    let t613 = neg_mul_add(P::splat(P::lane(t527, 1)), t589, t591);
+    let t614 = neg_mul_add(P::splat(P::lane(t528, 1)), t589, t592);
+    // constant and copied elements
+    let t615 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t616 = neg_mul_add(t593, P::splat(t596), t595);
+    let t617 = neg_mul_add(mul_add(P::splat(prepared[34][1]), t569, t576), t615, t597);
+    let t618 = neg_mul_add(P::splat(platform_rotation[2][0]), t600, t605);
+    let t619 = mul_add(P::splat(prepared[34][1]), t593, t601);
+    let t620 = mul_add(P::splat(prepared[34][2]), t568, P::splat(prepared[34][1]) * t548);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t621 = P::triple([P::lane(t561, 2), P::lane(t562, 2), P::lane(t563, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t622 = t610 - mul_add(P::splat(platform_acceleration[0]), t603, t588);
+    // force along the actuator that balances the remaining wrench
+    let t623 = neg_mul_add(P::splat(P::lane(t527, 2)), t612, t613);
+    let t624 = neg_mul_add(P::splat(P::lane(t528, 2)), t612, t614);
+    // constant and copied elements
+    let t625 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t626 = t476 * P::splat(P::lane(t602, 1));
+    // mass matrix M_p of the platform
+    let t627 = neg_mul_add(mul_add(P::splat(prepared[35][2]), t569, t598), t625, t617);
+    let t628 = neg_mul_add(P::splat(platform_rotation[2][1]), t619, t618);
+    let t629 = mul_add(P::splat(prepared[35][2]), t593, t620);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t630 = neg_mul_add(t515, P::splat(P::lane(t611, 0)), t608 + t609 + t621);
+    // inertia less external wrench that the actuators must balance
+    let t631 = neg_mul_add(P::splat(platform_acceleration[3]), t616, t622);
+    // force along the actuator that balances the remaining wrench
+    let t632 = mul_sub(t509, P::splat(t567), t545 * P::splat(P::lane(t526, 0)));
+    let t633 = mul_add(t479, P::splat(P::lane(t602, 0)), t626);
+    // mass matrix M_p of the platform
+    let t634 = neg_mul_add(P::splat(platform_rotation[2][2]), t629, t628);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t635 = mul_sub(t541, P::splat(P::lane(t611, 1)), t630);
+    // inertia less external wrench that the actuators must balance
+    let t636 = neg_mul_add(P::splat(platform_acceleration[4]), t627, t631);
+    // force along the actuator that balances the remaining wrench
+    let t637 = mul_add(t508, P::splat(P::lane(t602, 2)), t633);
+    let t638 = neg_mul_add(t589, P::splat(P::lane(t526, 1)), t632);
+    let t639 = P::triple([P::lane(t623, 2), P::lane(t623, 0), P::lane(t623, 1)]);
+    let t640 = P::triple([P::lane(t624, 1), P::lane(t624, 2), P::lane(t624, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t641 = mul_add(t570, P::splat(P::lane(t611, 2)), t635);
+    // force along the actuator that balances the remaining wrench
+    let t642 = P::triple([P::lane(t623, 1), P::lane(t623, 2), P::lane(t623, 0)]);
+    let t643 = P::triple([P::lane(t624, 2), P::lane(t624, 0), P::lane(t624, 1)]);
+    let t644 = neg_mul_add(t612, P::splat(P::lane(t526, 2)), t638);
+    let t645 = mul_sub(t642, t643, t639 * t640);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t646 = P::triple([P::lane(t526, 0), P::lane(t527, 0), P::lane(t528, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t647 = t641 + neg_mul_add(P::splat(platform_acceleration[5]), t634, t636);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t648 = P::triple([P::lane(t526, 1), P::lane(t527, 1), P::lane(t528, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t649 = mul_add(P::splat(t567), t647, P::splat(P::lane(t637, 0)) * t646);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t650 = P::triple([P::lane(t526, 2), P::lane(t527, 2), P::lane(t528, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t651 = P::lane(t644, 1) * P::lane(t645, 1);
+    let t652 = P::triple([P::lane(t644, 1), P::lane(t644, 2), P::lane(t644, 0)]);
+    let t653 = mul_add(P::splat(P::lane(t637, 1)), t648, t649);
+    let t654 = P::triple([P::lane(t644, 2), P::lane(t644, 0), P::lane(t644, 1)]);
+    let t655 = P::mul_add(P::lane(t644, 0), P::lane(t645, 0), t651);
+    let t656 = mul_add(P::splat(P::lane(t637, 2)), t650, t653);
+    let t657 = P::triple([P::lane(t545, 0), P::lane(t589, 0), P::lane(t612, 0)]);
+    let t658 = mul_sub(t639, t652, t642 * t654);
+    let t659 = c(1.0) / P::mul_add(P::lane(t644, 2), P::lane(t645, 2), t655);
+    let t660 = P::triple([P::lane(t545, 1), P::lane(t589, 1), P::lane(t612, 1)]);
+    let t661 = mul_sub(t640, t654, t643 * t652) * P::splat(P::lane(t656, 1));
+    let t662 = mul_add(t645, P::splat(P::lane(t656, 0)), t661);
+    let t663 = P::triple([P::lane(t545, 2), P::lane(t589, 2), P::lane(t612, 2)]);
+    let t664 = P::splat(t659) * mul_add(t658, P::splat(P::lane(t656, 2)), t662);
+    // inertia less external wrench that the actuators must balance
+    let t665 = -P::lane(t647, 0);
+    let t666 = -P::lane(t647, 1);
+    // force along the actuator that balances the remaining wrench
+    let t667 = -t664;
+    let t668 = mul_add(t657, P::splat(P::lane(t664, 0)), t637);
+    // inertia less external wrench that the actuators must balance
+    let t669 = -P::lane(t647, 2);
+    // force along the actuator that balances the remaining wrench
+    let t670 = mul_add(t660, P::splat(P::lane(t664, 1)), t668);
+    let t671 = mul_add(t663, P::splat(P::lane(t664, 2)), t670);
+    let t672 = P::splat(c(1.0) / t567) * t671;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t667, t672],
+        &[
+            [t244, t237],
+            [t270, t245],
+            [t271, t254],
+            [t509, t526],
+            [t510, t527],
+            [t511, t528],
+        ],
+        &[P::lane(t602, 0), P::lane(t602, 1), P::lane(t602, 2), t665, t666, t669],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t176, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t166, 0);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t176, 1);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t166, 1);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t176, 2);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t166, 2);
+    // leg 1: rate of the rod's extent along the actuator axis
+    actuator_velocity[0] = P::lane(t226, 0);
+    // leg 2: rate of the rod's extent along the actuator axis
+    actuator_velocity[1] = P::lane(t206, 0);
+    // leg 3: rate of the rod's extent along the actuator axis
+    actuator_velocity[2] = P::lane(t226, 1);
+    // leg 4: rate of the rod's extent along the actuator axis
+    actuator_velocity[3] = P::lane(t206, 1);
+    // leg 5: rate of the rod's extent along the actuator axis
+    actuator_velocity[4] = P::lane(t226, 2);
+    // leg 6: rate of the rod's extent along the actuator axis
+    actuator_velocity[5] = P::lane(t206, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t237, 0);
+    jacobian_dp[0][1] = P::lane(t245, 0);
+    jacobian_dp[0][2] = P::lane(t254, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t526, 0);
+    jacobian_dp[0][4] = P::lane(t527, 0);
+    jacobian_dp[0][5] = P::lane(t528, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t244, 0);
+    jacobian_dp[1][1] = P::lane(t270, 0);
+    jacobian_dp[1][2] = P::lane(t271, 0);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t509, 0);
+    jacobian_dp[1][4] = P::lane(t510, 0);
+    jacobian_dp[1][5] = P::lane(t511, 0);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t237, 1);
+    jacobian_dp[2][1] = P::lane(t245, 1);
+    jacobian_dp[2][2] = P::lane(t254, 1);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t526, 1);
+    jacobian_dp[2][4] = P::lane(t527, 1);
+    jacobian_dp[2][5] = P::lane(t528, 1);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t244, 1);
+    jacobian_dp[3][1] = P::lane(t270, 1);
+    jacobian_dp[3][2] = P::lane(t271, 1);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t509, 1);
+    jacobian_dp[3][4] = P::lane(t510, 1);
+    jacobian_dp[3][5] = P::lane(t511, 1);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t237, 2);
+    jacobian_dp[4][1] = P::lane(t245, 2);
+    jacobian_dp[4][2] = P::lane(t254, 2);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t526, 2);
+    jacobian_dp[4][4] = P::lane(t527, 2);
+    jacobian_dp[4][5] = P::lane(t528, 2);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t244, 2);
+    jacobian_dp[5][1] = P::lane(t270, 2);
+    jacobian_dp[5][2] = P::lane(t271, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t509, 2);
+    jacobian_dp[5][4] = P::lane(t510, 2);
+    jacobian_dp[5][5] = P::lane(t511, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t471, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t401, 1);
+    mass_matrix_p[0][2] = P::lane(t401, 2);
+    mass_matrix_p[1][0] = P::lane(t401, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t451, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t431, 2);
+    mass_matrix_p[2][0] = P::lane(t401, 2);
+    mass_matrix_p[2][1] = P::lane(t431, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t495, 2);
+    mass_matrix_p[3][3] = P::lane(t616, 0);
+    mass_matrix_p[3][4] = P::lane(t616, 1);
+    mass_matrix_p[3][5] = P::lane(t616, 2);
+    mass_matrix_p[4][3] = P::lane(t616, 1);
+    mass_matrix_p[4][4] = P::lane(t627, 1);
+    mass_matrix_p[4][5] = P::lane(t627, 2);
+    mass_matrix_p[5][3] = P::lane(t616, 2);
+    mass_matrix_p[5][4] = P::lane(t627, 2);
+    mass_matrix_p[5][5] = P::lane(t634, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t578, 0);
+    total_bias[1] = P::lane(t578, 1);
+    total_bias[2] = P::lane(t578, 2);
+    total_bias[3] = -P::lane(t641, 0);
+    total_bias[4] = -P::lane(t641, 1);
+    total_bias[5] = -P::lane(t641, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// What follows from the parameters alone, for \`forward_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 54x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 54],
+) {
+    let c = T::constant;
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[3] / t4;
+    let t8 = parameters.rod_inertia[4] / t5;
+    let t9 = parameters.rod_inertia[5] / t6;
+    let t10 = c(1.0) - parameters.rod_com_fraction[3];
+    let t11 = c(1.0) - parameters.rod_com_fraction[4];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[3] * t10, t7);
+    prepared[22][0] = t13;
+    let t14 = mul_add(t11, parameters.rod_mass[4] * t11, t8);
+    prepared[22][1] = t14;
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[22][2] = t15;
+    prepared[22][3] = t15;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t1;
+    let t17 = parameters.rod_inertia[1] / t2;
+    let t18 = parameters.rod_inertia[2] / t3;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[1];
+    let t21 = c(1.0) - parameters.rod_com_fraction[2];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    prepared[20][0] = t22;
+    let t23 = mul_add(t20, parameters.rod_mass[1] * t20, t17);
+    prepared[20][1] = t23;
+    let t24 = mul_add(t21, parameters.rod_mass[2] * t21, t18);
+    prepared[20][2] = t24;
+    prepared[20][3] = t24;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t26 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[3], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[4], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t33 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[1], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[2], t33, t18);
+    // second moment of payload and platform-side leg ends
+    let t37 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t38 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t39 = t38 + parameters.payload_inertia[2][2];
+    let t40 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t41 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t42 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t43 = t28 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t44 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t45 = t29 * (parameters.platform_point[4][0] * parameters.platform_point[4][0]);
+    let t46 = mul_add(t34, t42, t43) + mul_add(t35, t44, t45);
+    let t47 = mul_add(t39, c(0.5), mul_add(t36, t40, t41) + t46);
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    let t49 = mul_add(parameters.payload_mass, t37, t48);
+    prepared[51][0] = t49;
+    let t50 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t51 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t52 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t55 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t56 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+    let t57 = mul_add(t34, t53, t54) + mul_add(t35, t55, t56);
+    let t58 = mul_add(t39, c(0.5), mul_add(t36, t51, t52) + t57);
+    let t59 = t58 - parameters.payload_inertia[1][1];
+    let t60 = mul_add(parameters.payload_mass, t50, t59);
+    prepared[51][1] = t60;
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t63 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t64 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t65 = t28 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t66 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t67 = t29 * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+    let t68 = mul_add(t34, t64, t65) + mul_add(t35, t66, t67);
+    let t69 = mul_add(t39, c(0.5), mul_add(t36, t62, t63) + t68);
+    let t70 = t69 - parameters.payload_inertia[2][2];
+    let t71 = mul_add(parameters.payload_mass, t61, t70);
+    prepared[51][2] = t71;
+    prepared[51][3] = t71;
+    let t72 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t73 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t74 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t75 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t76 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t77 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t78 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][0]);
+    let t79 = mul_add(t34, t75, t76) + mul_add(t35, t77, t78);
+    let t80 = mul_add(t36, t73, t74) + t79;
+    let t81 = mul_add(t72, parameters.payload_mass, t80);
+    prepared[49][0] = t81 - parameters.payload_inertia[0][1];
+    let t82 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t83 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t84 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t85 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t86 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t87 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t88 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+    let t89 = mul_add(t34, t85, t86) + mul_add(t35, t87, t88);
+    let t90 = mul_add(t36, t83, t84) + t89;
+    let t91 = mul_add(t82, parameters.payload_mass, t90);
+    prepared[49][1] = t91 - parameters.payload_inertia[1][2];
+    let t92 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t93 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t94 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t95 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t96 = t28 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t97 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t98 = t29 * (parameters.platform_point[4][0] * parameters.platform_point[4][2]);
+    let t99 = mul_add(t34, t95, t96) + mul_add(t35, t97, t98);
+    let t100 = mul_add(t36, t93, t94) + t99;
+    let t101 = mul_add(t92, parameters.payload_mass, t100);
+    let t102 = t101 - parameters.payload_inertia[0][2];
+    prepared[49][2] = t102;
+    prepared[49][3] = t102;
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t103 = t22 + parameters.mover_mass[0];
+    prepared[23][0] = t103;
+    let t104 = t23 + parameters.mover_mass[1];
+    prepared[23][1] = t104;
+    let t105 = t24 + parameters.mover_mass[2];
+    prepared[23][2] = t105;
+    prepared[23][3] = t105;
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t106 = neg_mul_add(t31, t19, t16);
+    prepared[26][0] = t106;
+    let t107 = neg_mul_add(t32, t20, t17);
+    prepared[26][1] = t107;
+    let t108 = neg_mul_add(t33, t21, t18);
+    prepared[26][2] = t108;
+    prepared[26][3] = t108;
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t109 = c(1.0) / t103;
+    let t110 = c(1.0) / t104;
+    let t111 = c(1.0) / t105;
+    let t112 = t109 * (t106 * t106);
+    prepared[29][0] = t112;
+    let t113 = t110 * (t107 * t107);
+    prepared[29][1] = t113;
+    let t114 = t111 * (t108 * t108);
+    prepared[29][2] = t114;
+    prepared[29][3] = t114;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t115 = t13 + parameters.mover_mass[3];
+    prepared[25][0] = t115;
+    let t116 = t14 + parameters.mover_mass[4];
+    prepared[25][1] = t116;
+    let t117 = t15 + parameters.mover_mass[5];
+    prepared[25][2] = t117;
+    prepared[25][3] = t117;
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t118 = neg_mul_add(t25, t10, t7);
+    prepared[27][0] = t118;
+    let t119 = neg_mul_add(t26, t11, t8);
+    prepared[27][1] = t119;
+    let t120 = neg_mul_add(t27, t12, t9);
+    prepared[27][2] = t120;
+    prepared[27][3] = t120;
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t121 = c(1.0) / t115;
+    let t122 = c(1.0) / t116;
+    let t123 = c(1.0) / t117;
+    let t124 = t121 * (t118 * t118);
+    prepared[41][0] = t124;
+    let t125 = t122 * (t119 * t119);
+    prepared[41][1] = t125;
+    let t126 = t123 * (t120 * t120);
+    prepared[41][2] = t126;
+    prepared[41][3] = t126;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    prepared[28][0] = t109 * t106;
+    prepared[28][1] = t110 * t107;
+    let t127 = t111 * t108;
+    prepared[28][2] = t127;
+    prepared[28][3] = t127;
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    prepared[30][0] = t121 * t118;
+    prepared[30][1] = t122 * t119;
+    let t128 = t123 * t120;
+    prepared[30][2] = t128;
+    prepared[30][3] = t128;
+    // mass matrix in base coordinates
+    prepared[32][0] = parameters.actuator_axis[0][0] * (parameters.actuator_axis[0][0] * t112);
+    prepared[32][1] = parameters.actuator_axis[1][0] * (parameters.actuator_axis[1][0] * t113);
+    let t129 = parameters.actuator_axis[2][0] * (parameters.actuator_axis[2][0] * t114);
+    prepared[32][2] = t129;
+    prepared[32][3] = t129;
+    let t130 = parameters.actuator_axis[0][1] * t112;
+    prepared[33][0] = parameters.actuator_axis[0][1] * t130;
+    let t131 = parameters.actuator_axis[1][1] * t113;
+    prepared[33][1] = parameters.actuator_axis[1][1] * t131;
+    let t132 = parameters.actuator_axis[2][1] * t114;
+    let t133 = parameters.actuator_axis[2][1] * t132;
+    prepared[33][2] = t133;
+    prepared[33][3] = t133;
+    let t134 = parameters.actuator_axis[0][2] * t112;
+    prepared[34][0] = parameters.actuator_axis[0][2] * t134;
+    let t135 = parameters.actuator_axis[1][2] * t113;
+    prepared[34][1] = parameters.actuator_axis[1][2] * t135;
+    let t136 = parameters.actuator_axis[2][2] * t114;
+    let t137 = parameters.actuator_axis[2][2] * t136;
+    prepared[34][2] = t137;
+    prepared[34][3] = t137;
+    prepared[37][0] = parameters.actuator_axis[0][0] * t130;
+    prepared[37][1] = parameters.actuator_axis[1][0] * t131;
+    let t138 = parameters.actuator_axis[2][0] * t132;
+    prepared[37][2] = t138;
+    prepared[37][3] = t138;
+    prepared[38][0] = parameters.actuator_axis[0][0] * t134;
+    prepared[38][1] = parameters.actuator_axis[1][0] * t135;
+    let t139 = parameters.actuator_axis[2][0] * t136;
+    prepared[38][2] = t139;
+    prepared[38][3] = t139;
+    prepared[39][0] = parameters.actuator_axis[0][1] * t134;
+    prepared[39][1] = parameters.actuator_axis[1][1] * t135;
+    let t140 = parameters.actuator_axis[2][1] * t136;
+    prepared[39][2] = t140;
+    prepared[39][3] = t140;
+    prepared[43][0] = parameters.actuator_axis[3][0] * t124;
+    prepared[43][1] = parameters.actuator_axis[4][0] * t125;
+    let t141 = parameters.actuator_axis[5][0] * t126;
+    prepared[43][2] = t141;
+    prepared[43][3] = t141;
+    prepared[44][0] = parameters.actuator_axis[3][1] * t124;
+    prepared[44][1] = parameters.actuator_axis[4][1] * t125;
+    let t142 = parameters.actuator_axis[5][1] * t126;
+    prepared[44][2] = t142;
+    prepared[44][3] = t142;
+    prepared[45][0] = parameters.actuator_axis[3][2] * t124;
+    prepared[45][1] = parameters.actuator_axis[4][2] * t125;
+    let t143 = parameters.actuator_axis[5][2] * t126;
+    prepared[45][2] = t143;
+    prepared[45][3] = t143;
+    let t144 = t71 + (t49 + t60);
+    prepared[53][1] = t144;
+    prepared[53][2] = t144;
+    prepared[53][3] = t144;
+    // first moment of payload and platform-side leg ends
+    let t145 = parameters.platform_point[5][0] * t30;
+    let t146 = parameters.platform_point[3][0] * t28;
+    let t147 = parameters.platform_point[4][0] * t29;
+    let t148 = mul_add(parameters.platform_point[1][0], t35, t147);
+    let t149 = mul_add(parameters.platform_point[0][0], t34, t146) + t148;
+    let t150 = mul_add(parameters.platform_point[2][0], t36, t145) + t149;
+    prepared[50][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t150);
+    let t151 = parameters.platform_point[5][1] * t30;
+    let t152 = parameters.platform_point[3][1] * t28;
+    let t153 = parameters.platform_point[4][1] * t29;
+    let t154 = mul_add(parameters.platform_point[1][1], t35, t153);
+    let t155 = mul_add(parameters.platform_point[0][1], t34, t152) + t154;
+    let t156 = mul_add(parameters.platform_point[2][1], t36, t151) + t155;
+    prepared[50][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t156);
+    let t157 = parameters.platform_point[5][2] * t30;
+    let t158 = parameters.platform_point[3][2] * t28;
+    let t159 = parameters.platform_point[4][2] * t29;
+    let t160 = mul_add(parameters.platform_point[1][2], t35, t159);
+    let t161 = mul_add(parameters.platform_point[0][2], t34, t158) + t160;
+    let t162 = mul_add(parameters.platform_point[2][2], t36, t157) + t161;
+    let t163 = mul_add(parameters.payload_com[2], parameters.payload_mass, t162);
+    prepared[50][2] = t163;
+    prepared[50][3] = t163;
+    // mass of payload and platform-side leg ends
+    let t164 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    prepared[53][0] = parameters.payload_mass + t164;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.base_point[0][1];
+    prepared[5][1] = parameters.base_point[1][1];
+    prepared[5][2] = parameters.base_point[2][1];
+    prepared[5][3] = parameters.base_point[2][1];
+    prepared[6][0] = parameters.platform_point[3][2];
+    prepared[6][1] = parameters.platform_point[4][2];
+    prepared[6][2] = parameters.platform_point[5][2];
+    prepared[6][3] = parameters.platform_point[5][2];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[1][0];
+    prepared[7][2] = parameters.base_point[2][0];
+    prepared[7][3] = parameters.base_point[2][0];
+    prepared[8][0] = parameters.actuator_axis[0][1];
+    prepared[8][1] = parameters.actuator_axis[1][1];
+    prepared[8][2] = parameters.actuator_axis[2][1];
+    prepared[8][3] = parameters.actuator_axis[2][1];
+    prepared[9][0] = parameters.actuator_axis[0][0];
+    prepared[9][1] = parameters.actuator_axis[1][0];
+    prepared[9][2] = parameters.actuator_axis[2][0];
+    prepared[9][3] = parameters.actuator_axis[2][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[1][2];
+    prepared[10][2] = parameters.base_point[2][2];
+    prepared[10][3] = parameters.base_point[2][2];
+    prepared[11][0] = parameters.base_point[3][1];
+    prepared[11][1] = parameters.base_point[4][1];
+    prepared[11][2] = parameters.base_point[5][1];
+    prepared[11][3] = parameters.base_point[5][1];
+    prepared[12][0] = parameters.actuator_axis[0][2];
+    prepared[12][1] = parameters.actuator_axis[1][2];
+    prepared[12][2] = parameters.actuator_axis[2][2];
+    prepared[12][3] = parameters.actuator_axis[2][2];
+    prepared[13][0] = parameters.base_point[3][0];
+    prepared[13][1] = parameters.base_point[4][0];
+    prepared[13][2] = parameters.base_point[5][0];
+    prepared[13][3] = parameters.base_point[5][0];
+    prepared[14][0] = parameters.actuator_axis[3][1];
+    prepared[14][1] = parameters.actuator_axis[4][1];
+    prepared[14][2] = parameters.actuator_axis[5][1];
+    prepared[14][3] = parameters.actuator_axis[5][1];
+    prepared[15][0] = parameters.actuator_axis[3][0];
+    prepared[15][1] = parameters.actuator_axis[4][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.base_point[3][2];
+    prepared[16][1] = parameters.base_point[4][2];
+    prepared[16][2] = parameters.base_point[5][2];
+    prepared[16][3] = parameters.base_point[5][2];
+    prepared[17][0] = parameters.actuator_axis[3][2];
+    prepared[17][1] = parameters.actuator_axis[4][2];
+    prepared[17][2] = parameters.actuator_axis[5][2];
+    prepared[17][3] = parameters.actuator_axis[5][2];
+    prepared[21][0] = parameters.mover_mass[0];
+    prepared[21][1] = parameters.mover_mass[1];
+    prepared[21][2] = parameters.mover_mass[2];
+    prepared[21][3] = parameters.mover_mass[2];
+    prepared[24][0] = parameters.mover_mass[3];
+    prepared[24][1] = parameters.mover_mass[4];
+    prepared[24][2] = parameters.mover_mass[5];
+    prepared[24][3] = parameters.mover_mass[5];
+    prepared[31][0] = parameters.rest_length[0];
+    prepared[31][1] = parameters.rest_length[1];
+    prepared[31][2] = parameters.rest_length[2];
+    prepared[31][3] = parameters.rest_length[2];
+    prepared[35][0] = parameters.mover_offset[0];
+    prepared[35][1] = parameters.mover_offset[1];
+    prepared[35][2] = parameters.mover_offset[2];
+    prepared[35][3] = parameters.mover_offset[2];
+    prepared[36][0] = parameters.axial_stiffness[0];
+    prepared[36][1] = parameters.axial_stiffness[1];
+    prepared[36][2] = parameters.axial_stiffness[2];
+    prepared[36][3] = parameters.axial_stiffness[2];
+    prepared[40][0] = parameters.axial_damping[0];
+    prepared[40][1] = parameters.axial_damping[1];
+    prepared[40][2] = parameters.axial_damping[2];
+    prepared[40][3] = parameters.axial_damping[2];
+    prepared[42][0] = parameters.rest_length[3];
+    prepared[42][1] = parameters.rest_length[4];
+    prepared[42][2] = parameters.rest_length[5];
+    prepared[42][3] = parameters.rest_length[5];
+    prepared[46][0] = parameters.mover_offset[3];
+    prepared[46][1] = parameters.mover_offset[4];
+    prepared[46][2] = parameters.mover_offset[5];
+    prepared[46][3] = parameters.mover_offset[5];
+    prepared[47][0] = parameters.axial_stiffness[3];
+    prepared[47][1] = parameters.axial_stiffness[4];
+    prepared[47][2] = parameters.axial_stiffness[5];
+    prepared[47][3] = parameters.axial_stiffness[5];
+    prepared[48][0] = parameters.axial_damping[3];
+    prepared[48][1] = parameters.axial_damping[4];
+    prepared[48][2] = parameters.axial_damping[5];
+    prepared[48][3] = parameters.axial_damping[5];
+    prepared[52][0] = parameters.gravity[0];
+    prepared[52][1] = parameters.gravity[1];
+    prepared[52][2] = parameters.gravity[2];
+    prepared[52][3] = parameters.gravity[2];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 54x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 54],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    // constant and copied elements
+    let t36 = P::load(&prepared[7]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
+    // constant and copied elements
+    let t39 = P::load(&prepared[8]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
+    // constant and copied elements
+    let t44 = P::load(&prepared[9]);
+    let t45 = P::load(&prepared[10]);
+    let t46 = P::load(&prepared[11]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t45;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t48 = mul_add(t21, P::splat(P::lane(t17, 2)), t41);
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 1)) + t38 - t46;
+    // constant and copied elements
+    let t50 = P::load(&prepared[12]);
+    let t51 = P::load(&prepared[13]);
+    let t52 = P::load(&prepared[14]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t51;
+    // constant and copied elements
+    let t54 = P::load(&prepared[15]);
+    let t55 = P::load(&prepared[16]);
+    let t56 = P::load(&prepared[17]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t47, t50, mul_add(t42, t44, t39 * t43));
+    // legs 4, 5, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t48 - t55;
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t61 = neg_mul_add(t39, t57, t43);
+    let t62 = neg_mul_add(t44, t57, t42);
+    let t63 = neg_mul_add(t50, t57, t47);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t64 = mul_add(t56, t58, mul_add(t53, t54, t49 * t52));
+    // angular velocity of the base
+    let t65 = mul_add(t2, P::splat(base_velocity[3]), t59);
+    // velocity of the platform origin relative to the base
+    let t66 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t67 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t68 = P::load(&prepared[19]);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t52, t64, t49);
+    let t70 = neg_mul_add(t54, t64, t53);
+    let t71 = neg_mul_add(t56, t64, t58);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t72 = mul_add(t62, t62, t61 * t61);
+    // angular velocity of the base
+    let t73 = mul_add(t5, P::splat(base_velocity[5]), t65);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t66);
+    // angular velocity of the platform
+    let t75 = mul_add(t2, P::splat(platform_velocity[3]), t67);
+    // angular acceleration of the base
+    let t76 = t1 * P::splat(base_acceleration[4]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t77 = mul_add(t70, t70, t69 * t69);
+    // velocity of the platform origin relative to the base
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t74);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t79 = sqrt(neg_mul_add(t63, t63, t60) - t72);
+    // angular acceleration of the base
+    let t80 = mul_add(t2, P::splat(base_acceleration[3]), t76);
+    // angular velocity of the platform
+    let t81 = mul_add(t5, P::splat(platform_velocity[5]), t75);
+    // platform origin seen from the base
+    let t82 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t83 = P::triple([P::lane(t73, 1), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t84 = P::triple([P::lane(t73, 0), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t85 = P::triple([P::lane(t73, 1), P::lane(t73, 1), P::lane(t73, 2)]);
+    // angular acceleration of the base
+    let t86 = mul_add(t5, P::splat(base_acceleration[5]), t80);
+    // angular velocity of the platform relative to the base
+    let t87 = t73 - t81;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t88 = sqrt(neg_mul_add(t71, t71, t68) - t77);
+    // platform origin seen from the base
+    let t89 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t91 = t84 * t85;
+    // velocity of the platform origin relative to the base
+    let t92 = mul_add(t89, t90, neg_mul_add(t82, t83, t78));
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t73, 2), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t94 = P::triple([P::lane(t73, 1), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t95 = mul_add(t94, t94, t93 * t93);
+    // angular acceleration of the base
+    let t96 = P::triple([P::lane(t86, 1), P::lane(t86, 2), P::lane(t86, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t97 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
+    // angular velocity of the platform relative to the base
+    let t98 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration of the base origin less gravity
+    let t99 = base_acceleration[0] - parameters.gravity[0];
+    let t100 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular acceleration of the base
+    let t101 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t102 = t96 + t97;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t103 = neg_mul_add(t31, P::splat(P::lane(t87, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration per base coordinate of points that move with the base
+    let t104 = mul_sub(t84, t85, t101);
+    // angular velocity of the platform
+    let t105 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t106 = t83 + t105;
+    // angular velocity of the platform relative to the base
+    let t107 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t108 = w(1.0) / t79;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t109 = neg_mul_add(t37, P::splat(P::lane(t87, 1)), P::splat(P::lane(t92, 0)));
+    // acceleration of the base origin less gravity
+    let t110 = base_acceleration[2] - parameters.gravity[2];
+    // rate of that angular velocity
+    let t111 = mul_add(t90, t107, neg_mul_add(t83, t98, t86));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t112 = mul_add(t37, P::splat(P::lane(t87, 0)), t103);
+    // acceleration of the base origin less gravity
+    let t113 = mul_add(t5, P::splat(t110), mul_add(t2, P::splat(t99), t100));
+    // acceleration per base coordinate of points that move with the base
+    let t114 = P::triple([P::lane(t104, 0), -P::lane(t95, 1), P::lane(t102, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t115 = mul_add(t33, P::splat(P::lane(t87, 2)), t109);
+    let t116 = neg_mul_add(t33, P::splat(P::lane(t87, 0)), P::splat(P::lane(t92, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t117 = P::splat(P::lane(t22, 1)) * t114;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t118 = neg_mul_add(t40, P::splat(P::lane(t87, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration per base coordinate of points that move with the base
+    let t119 = P::triple([-P::lane(t95, 0), P::lane(t102, 1), P::lane(t104, 2)]);
+    let t120 = P::triple([P::lane(t102, 0), P::lane(t104, 1), -P::lane(t95, 2)]);
+    // velocity of the platform origin relative to the base
+    let t121 = P::triple([P::lane(t92, 1), P::lane(t92, 2), P::lane(t92, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t122 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t123 = t37 * P::splat(P::lane(t111, 0));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t124 = mul_add(P::splat(P::lane(t22, 2)), t120, t113);
+    // legs 4, 5, 6: reciprocal of that extent
+    let t125 = w(1.0) / t88;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t126 = neg_mul_add(t48, P::splat(P::lane(t87, 1)), P::splat(P::lane(t92, 0)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t127 = mul_add(t31, P::splat(P::lane(t87, 1)), t116);
+    // rotation of the platform seen from the base
+    let t128 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t129 = mul_add(t48, P::splat(P::lane(t87, 0)), t118);
+    // acceleration per platform coordinate of points of the platform
+    let t130 = mul_sub(t81, t128, t14 * t105);
+    // velocity of the platform origin relative to the base
+    let t131 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t132 = t33 * P::splat(P::lane(t111, 2));
+    let t133 = mul_sub(t31, P::splat(P::lane(t111, 2)), t123);
+    // rotation of the platform seen from the base
+    let t134 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t135 = mul_add(P::splat(P::lane(t22, 0)), t119, t117) + t124;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t136 = mul_add(t38, P::splat(P::lane(t87, 2)), t126);
+    let t137 = neg_mul_add(t38, P::splat(P::lane(t87, 0)), P::splat(P::lane(t92, 2)));
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t138 = mul_add(t50, t127, mul_add(t44, t115, t39 * t112));
+    // acceleration per platform coordinate of points of the platform
+    let t139 = mul_sub(t81, t134, t15 * t105);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t140 = mul_sub(t37, P::splat(P::lane(t111, 1)), t132);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t141 = mul_add(t61, t108, t39);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t142 = mul_add(P::splat(P::lane(t87, 2)), t115, t133);
+    let t143 = t31 * P::splat(P::lane(t111, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t144 = mul_sub(t106, t131, t121 * t122) + t135;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t145 = t48 * P::splat(P::lane(t111, 0));
+    // rotation of the platform seen from the base
+    let t146 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t147 = mul_add(t62, t108, t44);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t148 = mul_add(t40, P::splat(P::lane(t87, 1)), t137);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t149 = neg_mul_add(t39, t138, t112);
+    // acceleration per platform coordinate of points of the platform
+    let t150 = mul_sub(t81, t146, t17 * t105);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t151 = mul_add(P::splat(P::lane(t87, 1)), t127, t140);
+    let t152 = mul_sub(t33, P::splat(P::lane(t111, 0)), t143);
+    // angular velocity of the platform
+    let t153 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t154 = P::triple([P::lane(t130, 2), P::lane(t130, 0), P::lane(t130, 1)]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t155 = t38 * P::splat(P::lane(t111, 2));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t156 = neg_mul_add(P::splat(P::lane(t87, 0)), t127, t142);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t157 = mul_sub(t40, P::splat(P::lane(t111, 2)), t145);
+    // legs 1, 2, 3: actuator length d
+    let t158 = t57 - t79;
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t159 = neg_mul_add(t44, t138, t115);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t160 = mul_add(t63, t108, t50);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t161 = mul_add(t56, t148, mul_add(t54, t136, t52 * t129));
+    // acceleration per platform coordinate of points of the platform
+    let t162 = P::triple([P::lane(t139, 2), P::lane(t139, 0), P::lane(t139, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t163 = neg_mul_add(P::splat(P::lane(t87, 2)), t112, t151);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t164 = mul_sub(t48, P::splat(P::lane(t111, 1)), t155);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t165 = mul_add(P::splat(P::lane(t87, 0)), t112, t152);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t166 = mul_add(t69, t125, t52);
+    // acceleration per platform coordinate of points of the platform
+    let t167 = mul_sub(t105, t130, t153 * t154);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t168 = P::splat(P::lane(t144, 1)) + t156;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t169 = mul_add(P::splat(P::lane(t87, 2)), t136, t157);
+    let t170 = t40 * P::splat(P::lane(t111, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t171 = mul_add(t39, t158, t20);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t172 = neg_mul_add(t50, t138, t127);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t173 = mul_add(t70, t125, t54);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t174 = neg_mul_add(t52, t161, t129);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t175 = mul_add(t127, t160, mul_add(t115, t147, t112 * t141));
+    // acceleration per platform coordinate of points of the platform
+    let t176 = mul_sub(t105, t139, t153 * t162);
+    let t177 = P::triple([P::lane(t150, 2), P::lane(t150, 0), P::lane(t150, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t178 = t163 + P::splat(P::lane(t144, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t179 = mul_add(P::splat(P::lane(t87, 1)), t148, t164);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t180 = neg_mul_add(P::splat(P::lane(t87, 1)), t115, t165);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t181 = mul_sub(t38, P::splat(P::lane(t111, 0)), t170);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t182 = mul_add(t44, t158, t36);
+    let t183 = mul_add(t50, t158, t45);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t184 = P::load(&prepared[20]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t185 = neg_mul_add(P::splat(P::lane(t87, 0)), t148, t169);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t186 = P::splat(P::lane(t95, 1)) * t171;
+    // legs 4, 5, 6: actuator length d
+    let t187 = t64 - t88;
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t188 = neg_mul_add(t54, t161, t136);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t189 = mul_add(t172, t172, mul_add(t159, t159, t149 * t149));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t190 = mul_add(t71, t125, t56);
+    // constant and copied elements
+    let t191 = P::load(&prepared[21]);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t192 = t138 - t175;
+    // acceleration per platform coordinate of points of the platform
+    let t193 = mul_sub(t105, t150, t153 * t177);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t194 = neg_mul_add(P::splat(P::lane(t87, 2)), t129, t179);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t195 = P::splat(P::lane(t144, 2)) + t180;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t196 = mul_add(P::splat(P::lane(t87, 0)), t129, t181);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t197 = P::splat(P::lane(t104, 0)) * t171;
+    let t198 = mul_add(P::splat(P::lane(t104, 1)), t183, P::splat(P::lane(t113, 1)));
+    let t199 = t50 * P::splat(P::lane(t73, 0));
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t200 = P::load(&prepared[22]);
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t201 = P::load(&prepared[23]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t202 = P::splat(P::lane(t144, 1)) + t185;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t203 = t9 * P::splat(P::lane(t167, 1));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t204 = mul_add(t52, t187, t46);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t205 = neg_mul_add(t56, t161, t148);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t206 = mul_add(t160, t195, mul_add(t147, t178, t141 * t168));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t207 = mul_add(P::splat(P::lane(t102, 0)), t183, P::splat(P::lane(t113, 0)));
+    let t208 = t39 * P::splat(P::lane(t73, 2));
+    let t209 = mul_sub(t44, P::splat(P::lane(t73, 2)), t199);
+    // constant and copied elements
+    let t210 = P::load(&prepared[24]);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t211 = mul_add(t148, t190, mul_add(t136, t173, t129 * t166));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t212 = P::splat(P::lane(t144, 0)) + t194;
+    let t213 = neg_mul_add(P::splat(P::lane(t87, 1)), t136, t196);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t214 = t175 * w(2.0);
+    let t215 = mul_sub(P::splat(P::lane(t102, 1)), t182, t186) + t198;
+    let t216 = P::splat(P::lane(t102, 2)) * t171;
+    let t217 = t9 * P::splat(P::lane(t167, 0));
+    let t218 = mul_add(t12, P::splat(P::lane(t176, 1)), t203);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t219 = mul_add(t54, t187, t51);
+    let t220 = mul_add(t56, t187, t55);
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t221 = P::load(&prepared[25]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t222 = P::splat(P::lane(t95, 1)) * t204;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t223 = mul_sub(t50, P::splat(P::lane(t73, 1)), t208);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t224 = neg_mul_add(t108, mul_add(t192, t192, t189), t206);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t225 = mul_add(t205, t205, mul_add(t188, t188, t174 * t174));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t226 = t207 - mul_sub(P::splat(P::lane(t95, 0)), t182, t197);
+    let t227 = neg_mul_add(P::splat(P::lane(t95, 2)), t183, P::splat(P::lane(t113, 2)));
+    let t228 = t44 * P::splat(P::lane(t73, 1));
+    let t229 = mul_add(t12, P::splat(P::lane(t176, 0)), t217);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t230 = t161 - t211;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t231 = P::splat(P::lane(t144, 2)) + t213;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t232 = t9 * P::splat(P::lane(t167, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t233 = P::splat(P::lane(t104, 0)) * t204;
+    let t234 = mul_add(P::splat(P::lane(t104, 1)), t220, P::splat(P::lane(t113, 1)));
+    let t235 = t56 * P::splat(P::lane(t73, 0));
+    let t236 = t18 * P::splat(P::lane(t167, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t237 = mul_sub(t39, P::splat(P::lane(t73, 0)), t228);
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t238 = P::load(&prepared[26]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t239 = mul_add(t190, t231, mul_add(t173, t212, t166 * t202));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t240 = neg_mul_add(t39, t224, mul_add(t209, t214, t215));
+    let t241 = mul_add(P::splat(P::lane(t104, 2)), t182, t216) + t227;
+    let t242 = mul_add(t12, P::splat(P::lane(t176, 2)), t232);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t243 = mul_add(P::splat(P::lane(t102, 0)), t220, P::splat(P::lane(t113, 0)));
+    let t244 = t52 * P::splat(P::lane(t73, 2));
+    let t245 = mul_sub(t54, P::splat(P::lane(t73, 2)), t235);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t246 = t39 * mul_add(t13, P::splat(P::lane(t193, 1)), t218);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t247 = w(2.0) * t211;
+    let t248 = mul_sub(P::splat(P::lane(t102, 1)), t219, t222) + t234;
+    let t249 = P::splat(P::lane(t102, 2)) * t204;
+    let t250 = t18 * P::splat(P::lane(t167, 0));
+    let t251 = mul_add(t19, P::splat(P::lane(t176, 1)), t236);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t252 = neg_mul_add(t44, t224, mul_add(t214, t223, t226));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t253 = mul_sub(t56, P::splat(P::lane(t73, 1)), t244);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t254 = neg_mul_add(t125, mul_add(t230, t230, t225), t239);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t255 = mul_add(t44, mul_add(t13, P::splat(P::lane(t193, 0)), t229), t246);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t256 = t243 - mul_sub(P::splat(P::lane(t95, 0)), t219, t233);
+    let t257 = neg_mul_add(P::splat(P::lane(t95, 2)), t220, P::splat(P::lane(t113, 2)));
+    let t258 = t54 * P::splat(P::lane(t73, 1));
+    let t259 = mul_add(t19, P::splat(P::lane(t176, 0)), t250);
+    let t260 = t18 * P::splat(P::lane(t167, 2));
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t261 = P::load(&prepared[27]);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t262 = P::load(&prepared[28]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t263 = neg_mul_add(t50, t224, mul_add(t214, t237, t241));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t264 = mul_sub(t52, P::splat(P::lane(t73, 0)), t258);
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t265 = P::load(&prepared[29]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t266 = mul_add(t50, mul_add(t13, P::splat(P::lane(t193, 2)), t242), t255);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t267 = neg_mul_add(t52, t254, mul_add(t245, t247, t248));
+    let t268 = mul_add(P::splat(P::lane(t104, 2)), t219, t249) + t257;
+    let t269 = mul_add(t19, P::splat(P::lane(t176, 2)), t260);
+    let t270 = t52 * mul_add(t21, P::splat(P::lane(t193, 1)), t251);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t271 = neg_mul_add(t44, t262, t147);
+    let t272 = neg_mul_add(t39, t262, t141);
+    let t273 = neg_mul_add(t50, t262, t160);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t274 = P::load(&prepared[30]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t275 = mul_add(t50, t263, mul_add(t44, t252, t39 * t240));
+    let t276 = mul_add(t237, t237, mul_add(t223, t223, t209 * t209));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t277 = neg_mul_add(t54, t254, mul_add(t247, t253, t256));
+    // constant and copied elements
+    let t278 = P::load(&prepared[31]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t279 = mul_sub(t33, t160, t37 * t141);
+    let t280 = mul_sub(t37, t147, t31 * t160);
+    let t281 = mul_sub(t31, t141, t33 * t147);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t282 = mul_sub(t33, t50, t37 * t39);
+    let t283 = mul_sub(t37, t44, t31 * t50);
+    let t284 = mul_sub(t31, t39, t33 * t44);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t285 = mul_add(t54, mul_add(t21, P::splat(P::lane(t193, 0)), t259), t270);
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t286 = t158 - t278;
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t287 = neg_mul_add(t54, t274, t173);
+    let t288 = neg_mul_add(t52, t274, t166);
+    let t289 = neg_mul_add(t56, t274, t190);
+    // mass matrix in base coordinates
+    let t290 = P::load(&prepared[32]);
+    let t291 = t201 * t272;
+    let t292 = t201 * t273;
+    let t293 = P::load(&prepared[33]);
+    let t294 = P::load(&prepared[34]);
+    // constant and copied elements
+    let t295 = P::load(&prepared[35]);
+    let t296 = P::load(&prepared[36]);
+    let t297 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // mass matrix in base coordinates
+    let t298 = P::load(&prepared[37]);
+    let t299 = P::load(&prepared[38]);
+    let t300 = P::load(&prepared[39]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t301 = mul_sub(t184, t275, t238 * t266);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t302 = neg_mul_add(t56, t254, mul_add(t247, t264, t268));
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t303 = mul_sub(t38, t190, t48 * t166);
+    let t304 = mul_sub(t48, t173, t40 * t190);
+    let t305 = mul_sub(t40, t166, t38 * t173);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t306 = neg_mul_add(t262, t282, t279);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t307 = mul_sub(t38, t56, t48 * t52);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t308 = neg_mul_add(t262, t283, t280);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t309 = mul_sub(t48, t54, t40 * t56);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t310 = neg_mul_add(t262, t284, t281);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t311 = mul_sub(t40, t52, t38 * t54);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t312 = mul_add(t56, mul_add(t21, P::splat(P::lane(t193, 2)), t269), t285);
+    // mass matrix in base coordinates
+    let t313 = t265 * t282;
+    let t314 = t265 * t283;
+    let t315 = t265 * t284;
+    let t316 = t221 * t288;
+    let t317 = t221 * t289;
+    // constant and copied elements
+    let t318 = P::load(&prepared[40]);
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t319 = P::load(&prepared[41]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t320 = mul_add(t191, mul_add(t276, t295, t275), t301);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t321 = mul_add(t56, t302, mul_add(t54, t277, t52 * t267));
+    let t322 = mul_add(t264, t264, mul_add(t253, t253, t245 * t245));
+    // constant and copied elements
+    let t323 = P::load(&prepared[42]);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t324 = neg_mul_add(t274, t307, t303);
+    let t325 = neg_mul_add(t274, t309, t304);
+    let t326 = neg_mul_add(t274, t311, t305);
+    // mass matrix in base coordinates
+    let t327 = t201 * t306;
+    let t328 = t201 * t308;
+    let t329 = t201 * t310;
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t330 = t238 * t252;
+    let t331 = t238 * t240;
+    let t332 = t238 * t263;
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t333 = t187 - t323;
+    // mass matrix in base coordinates
+    let t334 = mul_add(t287, t221 * t287, mul_sub(t271, t201 * t271, t290));
+    let t335 = mul_add(t288, t316, mul_sub(t272, t291, t293));
+    let t336 = mul_add(t289, t317, mul_sub(t273, t292, t294));
+    let t337 = P::load(&prepared[43]);
+    let t338 = P::load(&prepared[44]);
+    let t339 = mul_add(t287, t316, mul_sub(t271, t291, t298));
+    let t340 = P::load(&prepared[45]);
+    let t341 = mul_add(t287, t317, mul_sub(t271, t292, t299));
+    let t342 = mul_add(t288, t317, mul_sub(t272, t292, t300));
+    // constant and copied elements
+    let t343 = P::load(&prepared[46]);
+    let t344 = P::load(&prepared[47]);
+    let t345 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t346 = mul_sub(t200, t321, t261 * t312);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t347 = neg_mul_add(t175, t318, neg_mul_add(t286, t296, t297)) - t320;
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t348 = t33 * t332;
+    let t349 = t37 * t330;
+    let t350 = t31 * t331;
+    // mass matrix in base coordinates
+    let t351 = t221 * t324;
+    let t352 = t221 * t325;
+    let t353 = t221 * t326;
+    let t354 = mul_sub(t54, t337, t334);
+    let t355 = mul_sub(t52, t338, t335);
+    let t356 = mul_sub(t56, t340, t336);
+    let t357 = mul_sub(t54, t338, t339);
+    let t358 = mul_sub(t54, t340, t341);
+    let t359 = mul_sub(t52, t340, t342);
+    // constant and copied elements
+    let t360 = P::load(&prepared[48]);
+    // mass matrix in base coordinates
+    let t361 = mul_add(t288, t351, mul_sub(t272, t327, t39 * t313));
+    let t362 = mul_add(t288, t352, mul_sub(t272, t328, t39 * t314));
+    let t363 = mul_add(t288, t353, mul_sub(t272, t329, t39 * t315));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t364 = mul_add(t210, mul_add(t322, t343, t321), t346);
+    // mass matrix in base coordinates
+    let t365 = t307 * t319;
+    let t366 = t309 * t319;
+    let t367 = t311 * t319;
+    let t368 = mul_add(t287, t351, mul_sub(t271, t327, t44 * t313));
+    let t369 = mul_add(t287, t352, mul_sub(t271, t328, t44 * t314));
+    let t370 = mul_add(t287, t353, mul_sub(t271, t329, t44 * t315));
+    // wrench left at the trial acceleration
+    let t371 = mul_sub(t37, t331, mul_add(t279, t347, t348));
+    let t372 = mul_sub(t31, t332, mul_add(t280, t347, t349));
+    let t373 = mul_sub(t33, t330, mul_add(t281, t347, t350));
+    // mass matrix in base coordinates
+    let t374 = mul_sub(t52, t365, t361);
+    let t375 = mul_sub(t52, t366, t362);
+    let t376 = mul_sub(t52, t367, t363);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t377 = neg_mul_add(t211, t360, neg_mul_add(t333, t344, t345)) - t364;
+    // inertia less external wrench that the actuators must balance
+    let t378 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t379 = mul_sub(t54, t365, t368);
+    let t380 = mul_sub(t54, t366, t369);
+    let t381 = mul_sub(t54, t367, t370);
+    let t382 = P::triple([P::lane(t354, 0), P::lane(t355, 0), P::lane(t356, 0)]);
+    let t383 = P::triple([P::lane(t354, 1), P::lane(t355, 1), P::lane(t356, 1)]);
+    let t384 = mul_add(t289, t351, mul_sub(t273, t327, t50 * t313));
+    let t385 = mul_add(t289, t352, mul_sub(t273, t328, t50 * t314));
+    let t386 = mul_add(t289, t353, mul_sub(t273, t329, t50 * t315));
+    let t387 = P::triple([P::lane(t359, 0), P::lane(t358, 0), P::lane(t357, 0)]);
+    let t388 = P::triple([P::lane(t359, 1), P::lane(t358, 1), P::lane(t357, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t389 = t261 * t277;
+    let t390 = t261 * t267;
+    let t391 = t261 * t302;
+    // first moments by platform coordinate of the payload's inertia force
+    let t392 = mul_add(t176, P::splat(prepared[51][0]), t167 * P::splat(prepared[49][0]));
+    // inertia less external wrench that the actuators must balance
+    let t393 = mul_add(t2, P::splat(external_wrench[0]), t378);
+    // mass matrix in base coordinates
+    let t394 = P::triple([P::lane(t354, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+    let t395 = P::triple([P::lane(t359, 2), P::lane(t358, 2), P::lane(t357, 2)]);
+    let t396 = mul_sub(t56, t365, t384);
+    let t397 = mul_sub(t56, t366, t385);
+    let t398 = mul_sub(t56, t367, t386);
+    let t399 = t387 + t388 + t395;
+    let t400 = P::lane(t14, 2) * prepared[50][1];
+    // wrench left at the trial acceleration
+    let t401 = mul_add(t173, t377, mul_add(t147, t347, t330));
+    let t402 = mul_add(t166, t377, mul_add(t141, t347, t331));
+    let t403 = mul_add(t190, t377, mul_add(t160, t347, t332));
+    let t404 = mul_add(t38, t391, mul_sub(t303, t377, t371));
+    let t405 = mul_add(t48, t389, mul_sub(t304, t377, t372));
+    let t406 = mul_add(t40, t390, mul_sub(t305, t377, t373));
+    // mass matrix in base coordinates
+    let t407 = P::triple([P::lane(t374, 0), P::lane(t375, 0), P::lane(t376, 0)]);
+    let t408 = P::triple([P::lane(t374, 1), P::lane(t375, 1), P::lane(t376, 1)]);
+    let t409 = P::lane(t14, 0) * prepared[50][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t410 = mul_add(t193, P::splat(prepared[49][2]), t392);
+    // inertia less external wrench that the actuators must balance
+    let t411 = mul_add(t5, P::splat(external_wrench[2]), t393);
+    // mass matrix in base coordinates
+    let t412 = P::splat(prepared[53][0]) - (t382 + t383 + t394);
+    let t413 = P::triple([P::lane(t379, 0), P::lane(t380, 0), P::lane(t381, 0)]);
+    let t414 = P::triple([P::lane(t379, 1), P::lane(t380, 1), P::lane(t381, 1)]);
+    let t415 = mul_add(t324, t351, mul_sub(t306, t327, t282 * t313));
+    let t416 = mul_add(t325, t352, mul_sub(t308, t328, t283 * t314));
+    let t417 = mul_add(t326, t353, mul_sub(t310, t329, t284 * t315));
+    let t418 = P::mul_add(P::lane(t15, 2), prepared[50][0], t400);
+    let t419 = P::lane(t14, 1) * prepared[50][1];
+    let t420 = P::triple([P::lane(t374, 2), P::lane(t375, 2), P::lane(t376, 2)]);
+    let t421 = mul_add(t324, t352, mul_sub(t306, t328, t282 * t314));
+    let t422 = mul_add(t324, t353, mul_sub(t306, t329, t282 * t315));
+    let t423 = mul_add(t325, t353, mul_sub(t308, t329, t283 * t315));
+    let t424 = P::mul_add(P::lane(t15, 0), prepared[50][0], t409);
+    // wrench left at the trial acceleration
+    let t425 = mul_add(t261, t277, t401);
+    let t426 = mul_add(t261, t267, t402);
+    let t427 = mul_add(t261, t302, t403);
+    let t428 = mul_sub(t48, t390, t404);
+    let t429 = mul_sub(t40, t391, t405);
+    let t430 = mul_sub(t38, t389, t406);
+    // mass matrix in base coordinates
+    let t431 = t407 + t408 + t420;
+    // first moments by platform coordinate of the payload's inertia force
+    let t432 = mul_add(t176, P::splat(prepared[49][0]), t167 * P::splat(prepared[51][1]));
+    // mass matrix in base coordinates
+    let t433 = P::triple([P::lane(t379, 2), P::lane(t380, 2), P::lane(t381, 2)]);
+    let t434 = P::mul_add(P::lane(t15, 1), prepared[50][0], t419);
+    let t435 = t413 + t414 + t433;
+    let t436 = P::triple([P::lane(t396, 0), P::lane(t397, 0), P::lane(t398, 0)]);
+    let t437 = P::triple([P::lane(t396, 1), P::lane(t397, 1), P::lane(t398, 1)]);
+    let t438 = mul_sub(t307, t365, t415);
+    let t439 = mul_sub(t309, t366, t416);
+    let t440 = mul_sub(t311, t367, t417);
+    let t441 = P::triple([P::lane(t399, 2), P::lane(t399, 2), P::lane(t399, 0)]);
+    let t442 = P::triple([P::lane(t399, 1), P::lane(t399, 0), P::lane(t399, 1)]);
+    let t443 = P::mul_add(P::lane(t17, 2), prepared[50][2], t418);
+    let t444 = mul_sub(t307, t366, t421);
+    let t445 = mul_sub(t307, t367, t422);
+    let t446 = mul_sub(t309, t367, t423);
+    // acceleration that removes the residual wrench
+    let t447 = mul_add(t441, t442, t399 * t412);
+    // mass matrix in base coordinates
+    let t448 = P::mul_add(P::lane(t17, 0), prepared[50][2], t424);
+    // first moments by platform coordinate of the payload's inertia force
+    let t449 = mul_add(t193, P::splat(prepared[49][1]), t432);
+    // inertia less external wrench that the actuators must balance
+    let t450 = P::triple([P::lane(t411, 1), P::lane(t411, 2), P::lane(t411, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t451 = P::triple([P::lane(t410, 1), P::lane(t410, 2), P::lane(t410, 0)]);
+    // mass matrix in base coordinates
+    let t452 = P::triple([P::lane(t396, 2), P::lane(t397, 2), P::lane(t398, 2)]);
+    let t453 = mul_add(t15, P::splat(prepared[51][0]), t14 * P::splat(prepared[49][0]));
+    let t454 = P::mul_add(P::lane(t17, 1), prepared[50][2], t434);
+    // inertia less external wrench that the actuators must balance
+    let t455 = neg_mul_add(P::splat(parameters.payload_com[0]), t450, t451);
+    // mass matrix in base coordinates
+    let t456 = t436 + t437 + t452;
+    let t457 = t443 + P::lane(t431, 0);
+    let t458 = P::triple([P::lane(t412, 1), P::lane(t412, 0), P::lane(t412, 1)]);
+    let t459 = P::triple([P::lane(t412, 2), P::lane(t412, 2), P::lane(t412, 0)]);
+    // wrench left at the trial acceleration
+    let t460 = P::triple([P::lane(t425, 0), P::lane(t426, 0), P::lane(t427, 0)]);
+    let t461 = P::triple([P::lane(t425, 1), P::lane(t426, 1), P::lane(t427, 1)]);
+    let t462 = P::triple([P::lane(t428, 0), P::lane(t429, 0), P::lane(t430, 0)]);
+    let t463 = P::triple([P::lane(t428, 1), P::lane(t429, 1), P::lane(t430, 1)]);
+    // acceleration that removes the residual wrench
+    let t464 = mul_sub(t458, t459, t399 * t399);
+    // first moments by platform coordinate of the payload's inertia force
+    let t465 = mul_add(t176, P::splat(prepared[49][2]), t167 * P::splat(prepared[49][1]));
+    // mass matrix in base coordinates
+    let t466 = mul_add(t17, P::splat(prepared[49][2]), t453);
+    let t467 = mul_add(t15, P::splat(prepared[49][0]), t14 * P::splat(prepared[51][1]));
+    let t468 = P::triple([P::lane(t438, 0), P::lane(t439, 0), P::lane(t440, 0)]);
+    let t469 = P::triple([P::lane(t438, 1), P::lane(t439, 1), P::lane(t440, 1)]);
+    let t470 = t443 - P::lane(t435, 1);
+    let t471 = P::triple([-t457, -P::lane(t431, 1), t448 - P::lane(t431, 2)]);
+    // wrench left at the trial acceleration
+    let t472 = P::triple([P::lane(t425, 2), P::lane(t426, 2), P::lane(t427, 2)]);
+    let t473 = P::triple([P::lane(t428, 2), P::lane(t429, 2), P::lane(t430, 2)]);
+    // mass matrix in base coordinates
+    let t474 = P::triple([P::lane(t446, 0), P::lane(t445, 0), P::lane(t444, 0)]);
+    let t475 = P::triple([P::lane(t446, 1), P::lane(t445, 1), P::lane(t444, 1)]);
+    // acceleration that removes the residual wrench
+    let t476 = P::splat(P::lane(t447, 2)) * t471;
+    // mass matrix in base coordinates
+    let t477 = -P::lane(t435, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t478 = mul_add(t193, P::splat(prepared[51][2]), t465);
+    let t479 = P::triple([P::lane(t449, 1), P::lane(t449, 2), P::lane(t449, 0)]);
+    // mass matrix in base coordinates
+    let t480 = P::triple([P::lane(t438, 2), P::lane(t439, 2), P::lane(t440, 2)]);
+    let t481 = mul_add(t17, P::splat(prepared[49][1]), t467);
+    let t482 = mul_add(t15, P::splat(prepared[49][2]), t14 * P::splat(prepared[49][1]));
+    let t483 = P::triple([t477, t470, -(P::lane(t435, 2) + t454)]);
+    // inertia less external wrench that the actuators must balance
+    let t484 = neg_mul_add(P::splat(parameters.payload_com[1]), t450, t479);
+    let t485 = P::triple([P::lane(t455, 1), P::lane(t455, 2), P::lane(t455, 0)]);
+    // mass matrix in base coordinates
+    let t486 = P::triple([P::lane(t446, 2), P::lane(t445, 2), P::lane(t444, 2)]);
+    // acceleration that removes the residual wrench
+    let t487 = mul_add(P::splat(P::lane(t464, 0)), t483, t476);
+    // mass matrix in base coordinates
+    let t488 = t454 - P::lane(t456, 0);
+    // wrench left at the trial acceleration
+    let t489 = neg_mul_add(t176, P::splat(prepared[50][0]), t460 + t461 + t472);
+    // mass matrix in base coordinates
+    let t490 = -(t448 + P::lane(t456, 1));
+    let t491 = t468 + t469 + t480 - P::splat(prepared[53][1]);
+    let t492 = mul_add(t17, P::splat(prepared[51][2]), t482);
+    // rotation of the platform seen from the base
+    let t493 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t494 = P::triple([P::lane(t466, 1), P::lane(t466, 0), P::lane(t466, 0)]);
+    let t495 = P::triple([t488, t490, -P::lane(t456, 2)]);
+    // rotation of the platform seen from the base
+    let t496 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration that removes the residual wrench
+    let t497 = mul_add(P::splat(P::lane(t447, 1)), t495, t487);
+    let t498 = t471 * P::splat(P::lane(t464, 1));
+    // wrench left at the trial acceleration
+    let t499 = neg_mul_add(t167, P::splat(prepared[50][1]), t489);
+    let t500 = mul_sub(t455, t496, mul_add(t134, t485, t462 + t463 + t473));
+    // acceleration that removes the residual wrench
+    let t501 = P::lane(t399, 2) * P::lane(t447, 2);
+    // first moments by platform coordinate of the payload's inertia force
+    let t502 = P::triple([P::lane(t478, 1), P::lane(t478, 2), P::lane(t478, 0)]);
+    // rotation of the platform seen from the base
+    let t503 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t504 = P::triple([P::lane(t481, 1), P::lane(t481, 0), P::lane(t481, 0)]);
+    // acceleration that removes the residual wrench
+    let t505 = mul_add(P::splat(P::lane(t447, 2)), t483, t498);
+    // inertia less external wrench that the actuators must balance
+    let t506 = neg_mul_add(P::splat(parameters.payload_com[2]), t450, t502);
+    let t507 = P::triple([P::lane(t484, 1), P::lane(t484, 2), P::lane(t484, 0)]);
+    // mass matrix in base coordinates
+    let t508 = mul_add(t503, t504, mul_add(t493, t494, t474 + t475 + t486));
+    // acceleration that removes the residual wrench
+    let t509 = t471 * P::splat(P::lane(t447, 0));
+    let t510 = P::mul_sub(P::lane(t412, 0), P::lane(t464, 0), t501);
+    // mass matrix in base coordinates
+    let t511 = mul_add(t14, t481, mul_add(t15, t466, t491));
+    // rotation of the platform seen from the base
+    let t512 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t513 = mul_add(t495, P::splat(P::lane(t447, 0)), t505);
+    // mass matrix in base coordinates
+    let t514 = P::triple([P::lane(t492, 1), P::lane(t492, 0), P::lane(t492, 0)]);
+    // acceleration that removes the residual wrench
+    let t515 = mul_add(t483, P::splat(P::lane(t447, 1)), t509);
+    // rotation of the platform seen from the base
+    let t516 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t517 = mul_add(t512, t514, t508);
+    // acceleration that removes the residual wrench
+    let t518 = P::neg_mul_add(P::lane(t399, 1), P::lane(t447, 1), t510);
+    // mass matrix in base coordinates
+    let t519 = P::triple([t470, t477, t477]);
+    // acceleration that removes the residual wrench
+    let t520 = P::triple([P::lane(t497, 2), P::lane(t497, 2), P::lane(t497, 1)]);
+    // wrench left at the trial acceleration
+    let t521 = t411 + neg_mul_add(t193, P::splat(prepared[50][2]), t499);
+    let t522 = mul_add(t484, t516, neg_mul_add(t128, t507, t500));
+    // mass matrix in base coordinates
+    let t523 = mul_add(t17, t492, t511);
+    // acceleration that removes the residual wrench
+    let t524 = mul_add(t495, P::splat(P::lane(t464, 2)), t515);
+    // inertia less external wrench that the actuators must balance
+    let t525 = P::triple([P::lane(t506, 1), P::lane(t506, 2), P::lane(t506, 0)]);
+    // acceleration that removes the residual wrench
+    let t526 = mul_add(t517, P::splat(t518), t519 * t520);
+    // mass matrix in base coordinates
+    let t527 = P::triple([P::lane(t431, 1), t457, t457]);
+    // acceleration that removes the residual wrench
+    let t528 = P::triple([P::lane(t513, 2), P::lane(t513, 2), P::lane(t513, 1)]);
+    // rotation of the platform seen from the base
+    let t529 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t530 = P::triple([P::lane(t521, 1), P::lane(t521, 2), P::lane(t521, 0)]);
+    // acceleration that removes the residual wrench
+    let t531 = P::triple([P::lane(t447, 2), P::lane(t447, 0), P::lane(t447, 1)]);
+    // wrench left at the trial acceleration
+    let t532 = mul_add(t506, t529, neg_mul_add(t146, t525, t522));
+    // acceleration that removes the residual wrench
+    let t533 = mul_add(t471, t513, mul_add(P::splat(t518), t523, t483 * t497));
+    // mass matrix in base coordinates
+    let t534 = P::triple([t490, t488, t488]);
+    // acceleration that removes the residual wrench
+    let t535 = P::triple([P::lane(t524, 2), P::lane(t524, 2), P::lane(t524, 1)]);
+    // wrench left at the trial acceleration
+    let t536 = P::triple([P::lane(t521, 2), P::lane(t521, 0), P::lane(t521, 1)]);
+    // acceleration that removes the residual wrench
+    let t537 = P::triple([P::lane(t447, 1), P::lane(t447, 2), P::lane(t447, 0)]);
+    let t538 = mul_add(t534, t535, neg_mul_add(t527, t528, t526));
+    // wrench left at the trial acceleration
+    let t539 = mul_add(t2, P::splat(external_wrench[3]), t532);
+    // acceleration that removes the residual wrench
+    let t540 = mul_add(t495, t524, t533);
+    let t541 = mul_add(t536, t537, mul_add(t464, t521, t530 * t531));
+    // wrench left at the trial acceleration
+    let t542 = mul_add(t1, P::splat(external_wrench[4]), t539);
+    // acceleration that removes the residual wrench
+    let t543 = P::triple([P::lane(t538, 1), P::lane(t538, 0), P::lane(t538, 1)]);
+    let t544 = P::triple([P::lane(t538, 2), P::lane(t538, 2), P::lane(t538, 0)]);
+    // wrench left at the trial acceleration
+    let t545 = mul_add(t5, P::splat(external_wrench[5]), t542);
+    // acceleration that removes the residual wrench
+    let t546 = mul_sub(t543, t544, t538 * t540);
+    let t547 = P::triple([P::lane(t540, 1), P::lane(t540, 0), P::lane(t540, 1)]);
+    let t548 = mul_sub(P::splat(t518), t545, t483 * P::splat(P::lane(t541, 0)));
+    let t549 = P::triple([P::lane(t540, 2), P::lane(t540, 2), P::lane(t540, 0)]);
+    let t550 = mul_sub(t547, t549, t538 * t538);
+    let t551 = P::triple([P::lane(t497, 0), P::lane(t513, 0), P::lane(t524, 0)]);
+    let t552 = P::triple([P::lane(t497, 1), P::lane(t513, 1), P::lane(t524, 1)]);
+    let t553 = neg_mul_add(t471, P::splat(P::lane(t541, 1)), t548);
+    let t554 = P::triple([P::lane(t497, 2), P::lane(t513, 2), P::lane(t524, 2)]);
+    let t555 = P::lane(t538, 2) * P::lane(t546, 2);
+    let t556 = P::triple([P::lane(t546, 2), P::lane(t546, 0), P::lane(t546, 1)]);
+    let t557 = P::triple([P::lane(t546, 1), P::lane(t546, 2), P::lane(t546, 0)]);
+    // constant and copied elements
+    let t558 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t559 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t560 = P::mul_add(P::lane(t540, 0), P::lane(t550, 0), t555);
+    let t561 = neg_mul_add(t495, P::splat(P::lane(t541, 2)), t553);
+    // constant and copied elements
+    let t562 = P::load(&prepared[52]);
+    let t563 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t564 = c(1.0) / P::mul_add(P::lane(t538, 1), P::lane(t546, 1), t560);
+    let t565 = P::triple([P::lane(t561, 1), P::lane(t561, 2), P::lane(t561, 0)]);
+    let t566 = P::triple([P::lane(t561, 2), P::lane(t561, 0), P::lane(t561, 1)]);
+    let t567 = mul_add(t557, t566, mul_add(t550, t561, t556 * t565));
+    let t568 = P::splat(t564) * t567;
+    let t569 = mul_add(t551, P::splat(P::lane(t568, 0)), t541);
+    // platform acceleration v_p'
+    let t570 = t558 * P::splat(P::lane(t568, 1));
+    // acceleration that removes the residual wrench
+    let t571 = mul_add(t552, P::splat(P::lane(t568, 1)), t569);
+    // platform acceleration v_p'
+    let t572 = mul_add(t559, P::splat(P::lane(t568, 0)), t570);
+    // acceleration that removes the residual wrench
+    let t573 = mul_add(t554, P::splat(P::lane(t568, 2)), t571);
+    // platform acceleration v_p'
+    let t574 = mul_add(t563, P::splat(P::lane(t568, 2)), t572);
+    // acceleration that removes the residual wrench
+    let t575 = P::splat(c(1.0) / t518) * t573;
+    // platform acceleration v_p'
+    let t576 = t558 * P::splat(P::lane(t575, 1));
+    let t577 = mul_add(t559, P::splat(P::lane(t575, 0)), t576);
+    let t578 = mul_add(t563, P::splat(P::lane(t575, 2)), t562) + t577;
+    forward_dynamics[0] = P::lane(t578, 0);
+    forward_dynamics[1] = P::lane(t578, 1);
+    forward_dynamics[2] = P::lane(t578, 2);
+    forward_dynamics[3] = -P::lane(t574, 0);
+    forward_dynamics[4] = -P::lane(t574, 1);
+    forward_dynamics[5] = -P::lane(t574, 2);
 }

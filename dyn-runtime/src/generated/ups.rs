@@ -2583,6 +2583,1431 @@ impl<S> crate::kernels::generic::Energy for Ups<S> {
     }
 }
 
+/// [`Ups`] for many calls with the same parameters: what follows from them alone is
+/// computed already, for functions in lanes.
+///
+/// Its parameters stay as they are; others make another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreparedUps {
+    model: Ups,
+    matrices: [[f64; 4]; 25],
+    inverse_dynamics: [[f64; 4]; 28],
+    control: [[f64; 4]; 34],
+    forward_dynamics: [[f64; 4]; 41],
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl Ups {
+    /// The model with everything computed that follows from its parameters alone.
+    pub fn prepared(self) -> PreparedUps {
+        let mut prepared = PreparedUps {
+            model: self,
+            matrices: [[0.0; 4]; 25],
+            inverse_dynamics: [[0.0; 4]; 28],
+            control: [[0.0; 4]; 34],
+            forward_dynamics: [[0.0; 4]; 41],
+        };
+        self::prepare_matrices(&self.parameters, &mut prepared.matrices);
+        self::prepare_inverse_dynamics(&self.parameters, &mut prepared.inverse_dynamics);
+        self::prepare_control(&self.parameters, &mut prepared.control);
+        self::prepare_forward_dynamics(&self.parameters, &mut prepared.forward_dynamics);
+        prepared
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl PreparedUps {
+    /// The model as it was when this was made, with its parameters.
+    pub fn model(&self) -> &Ups {
+        &self.model
+    }
+}
+
+impl crate::lanes::Generic for PreparedUps {
+    type Parameters<T: Scalar> = Parameters<T>;
+}
+
+impl crate::lanes::InLanes<f64> for PreparedUps {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = f64>>(
+        of_lane: impl Fn(usize) -> &'a Self,
+    ) -> Parameters<T> {
+        <Ups as crate::lanes::InLanes<f64>>::in_lanes(|lane| &of_lane(lane).model)
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment for PreparedUps {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+    ) {
+        crate::kernels::RodAlignment::rod_alignment(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::RodAlignment for PreparedUps {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics for PreparedUps {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        actuator_acceleration: &mut [f64; 6],
+        rod_direction: &mut [[f64; 3]; 6],
+        hooke_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::LegKinematics::leg_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::LegKinematics for PreparedUps {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::BodyKinematics for PreparedUps {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        payload_com_position: &mut [f64; 3],
+        payload_com_velocity: &mut [f64; 3],
+        payload_com_acceleration: &mut [f64; 3],
+        leg_angular_velocity: &mut [[f64; 3]; 6],
+        leg_angular_acceleration: &mut [[f64; 3]; 6],
+        lower_com_position: &mut [[f64; 3]; 6],
+        lower_com_velocity: &mut [[f64; 3]; 6],
+        lower_com_acceleration: &mut [[f64; 3]; 6],
+        upper_com_position: &mut [[f64; 3]; 6],
+        upper_com_velocity: &mut [[f64; 3]; 6],
+        upper_com_acceleration: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::ups::BodyKinematics::body_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::BodyKinematics for PreparedUps {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        leg_angular_velocity: &mut [[T; 3]; 6],
+        leg_angular_acceleration: &mut [[T; 3]; 6],
+        lower_com_position: &mut [[T; 3]; 6],
+        lower_com_velocity: &mut [[T; 3]; 6],
+        lower_com_acceleration: &mut [[T; 3]; 6],
+        upper_com_position: &mut [[T; 3]; 6],
+        upper_com_velocity: &mut [[T; 3]; 6],
+        upper_com_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::PartialVelocities for PreparedUps {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        payload_partial_velocity: &mut [[f64; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f64; 6]; 3],
+        lower_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
+    ) {
+        crate::kernels::ups::PartialVelocities::partial_velocities(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::PartialVelocities for PreparedUps {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        lower_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::GeneralisedForces for PreparedUps {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        payload_active_force: &mut [f64; 6],
+        payload_inertia_force: &mut [f64; 6],
+        lower_active_force: &mut [[f64; 6]; 6],
+        lower_inertia_force: &mut [[f64; 6]; 6],
+        upper_active_force: &mut [[f64; 6]; 6],
+        upper_inertia_force: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::ups::GeneralisedForces::generalised_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::GeneralisedForces for PreparedUps {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        lower_active_force: &mut [[T; 6]; 6],
+        lower_inertia_force: &mut [[T; 6]; 6],
+        upper_active_force: &mut [[T; 6]; 6],
+        upper_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp for PreparedUps {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDp::jacobian_dp(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDp for PreparedUps {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb for PreparedUps {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDb::jacobian_db(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDb for PreparedUps {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP for PreparedUps {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixP::mass_matrix_p(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixP for PreparedUps {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB for PreparedUps {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixB::mass_matrix_b(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixB for PreparedUps {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices for PreparedUps {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::CoriolisMatrices::coriolis_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::CoriolisMatrices for PreparedUps {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices for PreparedUps {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::StiffnessMatrices::stiffness_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::StiffnessMatrices for PreparedUps {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices for PreparedUps {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.matrices;
+        crate::single_state!(
+            matrices_prepared_in_lanes, matrices; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; only in lanes prepared : [[f64; 4]; 25];
+            mass_matrix_p : [[f64; 6]; 6], coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp
+            : [[f64; 6]; 6], mass_matrix_b : [[f64; 6]; 6], coriolis_matrix_b : [[f64;
+            6]; 6], jacobian_db : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Matrices for PreparedUps {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces for PreparedUps {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveForces::passive_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveForces for PreparedUps {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias for PreparedUps {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::Bias::bias(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Bias for PreparedUps {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion for PreparedUps {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::EquationOfMotion::equation_of_motion(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::EquationOfMotion for PreparedUps {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics for PreparedUps {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.inverse_dynamics;
+        crate::single_state!(
+            inverse_dynamics_prepared_in_lanes, inverse_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 28]; inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::InverseDynamics for PreparedUps {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for PreparedUps {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::ActuatorGeometry::actuator_geometry(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ActuatorGeometry for PreparedUps {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for PreparedUps {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.control;
+        crate::single_state!(
+            control_prepared_in_lanes, control; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 34]; actuator_length : [f64; 6], actuator_velocity :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Control for PreparedUps {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for PreparedUps {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveInverseDynamics for PreparedUps {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for PreparedUps {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        crate::kernels::BaseReaction::base_reaction(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::BaseReaction for PreparedUps {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics for PreparedUps {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        forward_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.forward_dynamics;
+        crate::single_state!(
+            forward_dynamics_prepared_in_lanes, forward_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; only in lanes prepared
+            : [[f64; 4]; 41]; forward_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ForwardDynamics for PreparedUps {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy for PreparedUps {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        kinetic_energy: &mut f64,
+        potential_energy: &mut f64,
+    ) {
+        crate::kernels::Energy::energy(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Energy for PreparedUps {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -31165,4 +32590,5495 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     forward_dynamics[3] = P::lane(t551, 0);
     forward_dynamics[4] = P::lane(t551, 1);
     forward_dynamics[5] = P::lane(t551, 2);
+}
+
+/// What follows from the parameters alone, for \`matrices\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 25x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 25],
+) {
+    let c = T::constant;
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t1 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t1;
+    let t2 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[12][1] = t2;
+    let t3 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][2] = t3;
+    prepared[12][3] = t3;
+    // second moment of payload and platform-side leg ends
+    let t4 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t5 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t6 = t5 + parameters.payload_inertia[2][2];
+    prepared[24][0] = t6;
+    let t7 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t8 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t9 = mul_add(t7, parameters.upper_mass[2], t8 * parameters.upper_mass[5]);
+    let t10 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t11 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t12 = mul_add(t10, parameters.upper_mass[0], t11 * parameters.upper_mass[3]);
+    let t13 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t14 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t15 = mul_add(t13, parameters.upper_mass[1], t14 * parameters.upper_mass[4]);
+    let t16 = mul_add(t6, c(0.5), t9 + (t12 + t15));
+    let t17 = t16 - parameters.payload_inertia[0][0];
+    let t18 = mul_add(t4, parameters.payload_mass, t17);
+    prepared[18][0] = t18;
+    let t19 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t20 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t21 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t22 = mul_add(parameters.upper_mass[2], t20, parameters.upper_mass[5] * t21);
+    let t23 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t24 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t25 = mul_add(parameters.upper_mass[0], t23, parameters.upper_mass[3] * t24);
+    let t26 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t27 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t28 = mul_add(parameters.upper_mass[1], t26, parameters.upper_mass[4] * t27);
+    let t29 = mul_add(t6, c(0.5), t22 + (t25 + t28));
+    let t30 = t29 - parameters.payload_inertia[1][1];
+    let t31 = mul_add(t19, parameters.payload_mass, t30);
+    prepared[18][1] = t31;
+    let t32 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t33 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t34 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t35 = mul_add(parameters.upper_mass[2], t33, parameters.upper_mass[5] * t34);
+    let t36 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t37 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t38 = mul_add(parameters.upper_mass[0], t36, parameters.upper_mass[3] * t37);
+    let t39 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t40 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t41 = mul_add(parameters.upper_mass[1], t39, parameters.upper_mass[4] * t40);
+    let t42 = mul_add(t6, c(0.5), t35 + (t38 + t41));
+    let t43 = t42 - parameters.payload_inertia[2][2];
+    let t44 = mul_add(t32, parameters.payload_mass, t43);
+    prepared[18][2] = t44;
+    prepared[18][3] = t44;
+    let t45 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t46 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t47 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t48 = mul_add(t46, parameters.upper_mass[2], t47 * parameters.upper_mass[5]);
+    let t49 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t50 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t51 = mul_add(t49, parameters.upper_mass[0], t50 * parameters.upper_mass[3]);
+    let t52 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t53 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t54 = mul_add(t52, parameters.upper_mass[1], t53 * parameters.upper_mass[4]);
+    let t55 = mul_add(t45, parameters.payload_mass, t48 + (t51 + t54));
+    prepared[19][0] = t55 - parameters.payload_inertia[0][1];
+    let t56 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t57 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t58 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t59 = mul_add(parameters.upper_mass[2], t57, parameters.upper_mass[5] * t58);
+    let t60 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t61 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t62 = mul_add(parameters.upper_mass[0], t60, parameters.upper_mass[3] * t61);
+    let t63 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t64 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t65 = mul_add(parameters.upper_mass[1], t63, parameters.upper_mass[4] * t64);
+    let t66 = mul_add(t56, parameters.payload_mass, t59 + (t62 + t65));
+    prepared[19][1] = t66 - parameters.payload_inertia[1][2];
+    let t67 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t68 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t69 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t70 = mul_add(t68, parameters.upper_mass[2], t69 * parameters.upper_mass[5]);
+    let t71 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t72 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t73 = mul_add(t71, parameters.upper_mass[0], t72 * parameters.upper_mass[3]);
+    let t74 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t75 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t76 = mul_add(t74, parameters.upper_mass[1], t75 * parameters.upper_mass[4]);
+    let t77 = mul_add(t67, parameters.payload_mass, t70 + (t73 + t76));
+    let t78 = t77 - parameters.payload_inertia[0][2];
+    prepared[19][2] = t78;
+    prepared[19][3] = t78;
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t79 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[14][2] = t79;
+    prepared[14][3] = t79;
+    let t80 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[14][0] = t80;
+    let t81 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[14][1] = t81;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t82 = mul_add(parameters.lower_com_distance[0], t1, parameters.lower_inertia[0]);
+    let t83 = t82 + parameters.upper_inertia[0];
+    prepared[15][0] = mul_add(parameters.upper_com_distance[0], t80, t83);
+    let t84 = mul_add(parameters.lower_com_distance[1], t2, parameters.lower_inertia[1]);
+    let t85 = t84 + parameters.upper_inertia[1];
+    prepared[15][1] = mul_add(parameters.upper_com_distance[1], t81, t85);
+    let t86 = mul_add(parameters.lower_com_distance[2], t3, parameters.lower_inertia[2]);
+    let t87 = t86 + parameters.upper_inertia[2];
+    let t88 = mul_add(parameters.upper_com_distance[2], t79, t87);
+    prepared[15][2] = t88;
+    prepared[15][3] = t88;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t89 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[13][0] = t89;
+    let t90 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[13][1] = t90;
+    let t91 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[13][2] = t91;
+    prepared[13][3] = t91;
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t92 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[16][2] = t92;
+    prepared[16][3] = t92;
+    let t93 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[16][0] = t93;
+    let t94 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[16][1] = t94;
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t95 = mul_add(parameters.lower_com_distance[3], t89, parameters.lower_inertia[3]);
+    let t96 = t95 + parameters.upper_inertia[3];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[3], t93, t96);
+    let t97 = mul_add(parameters.lower_com_distance[4], t90, parameters.lower_inertia[4]);
+    let t98 = t97 + parameters.upper_inertia[4];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[4], t94, t98);
+    let t99 = mul_add(parameters.lower_com_distance[5], t91, parameters.lower_inertia[5]);
+    let t100 = t99 + parameters.upper_inertia[5];
+    let t101 = mul_add(parameters.upper_com_distance[5], t92, t100);
+    prepared[17][2] = t101;
+    prepared[17][3] = t101;
+    // first moment of payload and platform-side leg ends
+    let t102 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t103 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t102);
+    let t104 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t105 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t104);
+    let t106 = parameters.platform_point[4][0] * parameters.upper_mass[4];
+    let t107 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t106);
+    let t108 = t103 + (t105 + t107);
+    prepared[20][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t110 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t109);
+    let t111 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t112 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t111);
+    let t113 = parameters.platform_point[4][1] * parameters.upper_mass[4];
+    let t114 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t113);
+    let t115 = t110 + (t112 + t114);
+    prepared[20][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t115);
+    let t116 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t117 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t116);
+    let t118 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t119 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t118);
+    let t120 = parameters.platform_point[4][2] * parameters.upper_mass[4];
+    let t121 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t120);
+    let t122 = t117 + (t119 + t121);
+    let t123 = mul_add(parameters.payload_com[2], parameters.payload_mass, t122);
+    prepared[20][2] = t123;
+    prepared[20][3] = t123;
+    // mass of payload and platform-side leg ends
+    let t124 = parameters.upper_mass[4] + parameters.upper_mass[1];
+    let t125 = parameters.upper_mass[3] + parameters.upper_mass[0] + t124;
+    let t126 = parameters.upper_mass[5] + parameters.upper_mass[2] + t125;
+    let t127 = parameters.payload_mass + t126;
+    prepared[21][1] = t127;
+    prepared[22][2] = t127;
+    prepared[22][3] = t127;
+    prepared[23][0] = t127;
+    // mass matrix M_p of the platform
+    let t128 = t44 + (t18 + t31);
+    prepared[24][1] = t128;
+    prepared[24][2] = t128;
+    prepared[24][3] = t128;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[3][2];
+    prepared[5][1] = parameters.platform_point[4][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[1][1];
+    prepared[6][2] = parameters.base_point[2][1];
+    prepared[6][3] = parameters.base_point[2][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[1][0];
+    prepared[7][2] = parameters.base_point[2][0];
+    prepared[7][3] = parameters.base_point[2][0];
+    prepared[8][0] = parameters.base_point[3][1];
+    prepared[8][1] = parameters.base_point[4][1];
+    prepared[8][2] = parameters.base_point[5][1];
+    prepared[8][3] = parameters.base_point[5][1];
+    prepared[9][0] = parameters.base_point[0][2];
+    prepared[9][1] = parameters.base_point[1][2];
+    prepared[9][2] = parameters.base_point[2][2];
+    prepared[9][3] = parameters.base_point[2][2];
+    prepared[10][0] = parameters.base_point[3][0];
+    prepared[10][1] = parameters.base_point[4][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[21][0] = c(0.0);
+    prepared[21][2] = c(0.0);
+    prepared[21][3] = c(0.0);
+    prepared[22][0] = c(0.0);
+    prepared[22][1] = c(0.0);
+    prepared[23][1] = c(0.0);
+    prepared[23][2] = c(0.0);
+    prepared[23][3] = c(0.0);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `prepared`: 25x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 25],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t184, t186, t188, t233, t234, t235, t664, t665, t666, t677, t678, t679, t863, t864, t865,
+        t866, t867, t868, t869, t870, t871, t872, t873, t874, t875, t876, t877, t878, t879, t880,
+        t882, t883, t884, t885, t886, t887, t888, t889, t890, t896, t897, t898,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 = P::load(&prepared[0]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 = P::load(&prepared[1]);
+        let t15 = P::load(&prepared[2]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 = P::load(&prepared[3]);
+        let t21 = P::load(&prepared[4]);
+        let t22 = P::load(&prepared[5]);
+        let t23 = P::load(&prepared[6]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t27 = t20 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t28 = mul_add(t14, P::splat(P::lane(t17, 0)), t25);
+        let t29 = t11 * P::splat(P::lane(t16, 2));
+        let t30 = mul_add(t14, P::splat(P::lane(t17, 1)), t26);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t31 = t20 * P::splat(P::lane(t16, 0));
+        let t32 = mul_add(t21, P::splat(P::lane(t17, 1)), t27);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t33 = mul_add(t14, P::splat(P::lane(t17, 2)), t29);
+        let t34 = mul_add(t15, P::splat(P::lane(t19, 0)), t28);
+        let t35 = mul_add(t15, P::splat(P::lane(t19, 1)), t30);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t36 = mul_add(t21, P::splat(P::lane(t17, 0)), t31);
+        let t37 = t20 * P::splat(P::lane(t16, 2));
+        let t38 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t15, P::splat(P::lane(t19, 2)), t33);
+        // constant and copied elements
+        let t40 = P::load(&prepared[7]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t22, P::splat(P::lane(t19, 0)), t36);
+        let t42 = mul_add(t21, P::splat(P::lane(t17, 2)), t37);
+        // legs 1, 2, 3: platform joint from the base point
+        let t43 = t34 + P::splat(P::lane(t24, 0)) - t40;
+        let t44 = P::splat(P::lane(t24, 1)) + t35 - t23;
+        // constant and copied elements
+        let t45 = P::load(&prepared[8]);
+        let t46 = P::load(&prepared[9]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t47 = mul_add(t22, P::splat(P::lane(t19, 2)), t42);
+        // legs 4, 5, 6: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t38 - t45;
+        // legs 1, 2, 3: platform joint from the base point
+        let t49 = P::splat(P::lane(t24, 2)) + t39 - t46;
+        // constant and copied elements
+        let t50 = P::load(&prepared[10]);
+        let t51 = P::load(&prepared[11]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t41 - t50;
+        // angular velocity of the base
+        let t53 = t1 * P::splat(base_velocity[4]);
+        // velocity of the platform origin relative to the base
+        let t54 = platform_velocity[1] - base_velocity[1];
+        let t55 = platform_velocity[0] - base_velocity[0];
+        let t56 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: platform joint from the base point
+        let t57 = P::splat(P::lane(t24, 2)) + t47 - t51;
+        // angular velocity of the base
+        let t58 = mul_add(t2, P::splat(base_velocity[3]), t53);
+        // angular velocity of the platform
+        let t59 = t1 * P::splat(platform_velocity[4]);
+        // platform origin seen from the base
+        let t60 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t61 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // legs 1, 2, 3: actuator length d
+        let t62 = sqrt(mul_add(t49, t49, mul_add(t43, t43, t44 * t44)));
+        // angular velocity of the base
+        let t63 = mul_add(t5, P::splat(base_velocity[5]), t58);
+        // velocity of the platform origin relative to the base
+        let t64 = mul_add(t2, P::splat(t55), t1 * P::splat(t54));
+        // angular velocity of the platform
+        let t65 = mul_add(t2, P::splat(platform_velocity[3]), t59);
+        // legs 4, 5, 6: actuator length d
+        let t66 = sqrt(mul_add(t57, t57, mul_add(t52, t52, t48 * t48)));
+        // legs 1, 2, 3: first moment of the lower part about the base joint
+        let t67 = P::load(&prepared[12]);
+        // angular velocity of the platform
+        let t68 = mul_add(t5, P::splat(platform_velocity[5]), t65);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t69 = P::splat(platform_rotation[0][1]) * t11;
+        let t70 = P::splat(platform_rotation[1][1]) * t11;
+        // angular velocity of the base
+        let t71 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+        let t72 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+        // velocity of the platform origin relative to the base
+        let t73 = neg_mul_add(t60, t71, mul_add(t5, P::splat(t56), t64));
+        // angular velocity of the platform relative to the base
+        let t74 = t63 - t68;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t75 = P::splat(base_rotation[1][1]) * t23;
+        let t76 = P::splat(base_rotation[0][1]) * t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t77 = P::splat(platform_rotation[2][1]) * t11;
+        // velocity of the platform origin relative to the base
+        let t78 = mul_add(t61, t72, t73);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t79 = P::splat(base_rotation[2][1]) * t23;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t80 = neg_mul_add(t39, P::splat(P::lane(t74, 1)), P::splat(P::lane(t78, 0)));
+        // legs 1, 2, 3: reciprocal of the actuator length
+        let t81 = w(1.0) / t62;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t82 = neg_mul_add(t47, P::splat(P::lane(t74, 1)), P::splat(P::lane(t78, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t83 = neg_mul_add(t34, P::splat(P::lane(t74, 2)), P::splat(P::lane(t78, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t84 = neg_mul_add(t41, P::splat(P::lane(t74, 2)), P::splat(P::lane(t78, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t85 = neg_mul_add(t35, P::splat(P::lane(t74, 0)), P::splat(P::lane(t78, 2)));
+        // legs 4, 5, 6: reciprocal of the actuator length
+        let t86 = w(1.0) / t66;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t87 = neg_mul_add(t38, P::splat(P::lane(t74, 0)), P::splat(P::lane(t78, 2)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t88 = mul_add(t35, P::splat(P::lane(t74, 2)), t80);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t89 = mul_add(P::splat(platform_rotation[0][0]), t14, t69);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t90 = mul_add(t38, P::splat(P::lane(t74, 2)), t82);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t91 = mul_add(t39, P::splat(P::lane(t74, 0)), t83);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t92 = mul_add(t47, P::splat(P::lane(t74, 0)), t84);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t93 = mul_add(t34, P::splat(P::lane(t74, 1)), t85);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t94 = mul_add(P::splat(platform_rotation[1][0]), t14, t70);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t95 = mul_add(t41, P::splat(P::lane(t74, 1)), t87);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t96 = mul_add(t49, P::splat(P::lane(t63, 1)), t88);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t97 = mul_add(t57, P::splat(P::lane(t63, 1)), t90);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t98 = mul_add(t43, P::splat(P::lane(t63, 2)), t91);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t99 = mul_add(t52, P::splat(P::lane(t63, 2)), t92);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t100 = mul_add(t44, P::splat(P::lane(t63, 0)), t93);
+        let t101 = neg_mul_add(t44, P::splat(P::lane(t63, 2)), t96);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t102 = t44 * t81;
+        let t103 = t43 * t81;
+        let t104 = t49 * t81;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t105 = neg_mul_add(t49, P::splat(P::lane(t63, 0)), t98);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t106 = neg_mul_add(t57, P::splat(P::lane(t63, 0)), t99);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t107 = t48 * t86;
+        let t108 = t52 * t86;
+        let t109 = t57 * t86;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t110 = neg_mul_add(t43, P::splat(P::lane(t63, 1)), t100);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t111 = mul_add(P::splat(base_rotation[1][0]), t40, t75);
+        let t112 = mul_add(P::splat(base_rotation[0][0]), t40, t76);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t113 = mul_add(P::splat(platform_rotation[2][0]), t14, t77);
+        // legs 4, 5, 6: first moment of the lower part about the base joint
+        let t114 = P::load(&prepared[13]);
+        // legs 1, 2, 3: first moment of the upper part about the platform joint
+        let t115 = P::load(&prepared[14]);
+        // legs 1, 2, 3: actuator velocity d'
+        let t116 = mul_add(t93, t104, mul_add(t88, t103, t91 * t102));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t117 = mul_add(P::splat(base_rotation[2][0]), t40, t79);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t118 = neg_mul_add(t48, P::splat(P::lane(t63, 2)), t97);
+        // legs 4, 5, 6: actuator velocity d'
+        let t119 = mul_add(t95, t109, mul_add(t90, t108, t92 * t107));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t120 = mul_add(t48, P::splat(P::lane(t63, 0)), t95);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t121 = mul_add(P::splat(platform_rotation[0][2]), t15, t89);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t122 = P::splat(platform_rotation[0][1]) * t20;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t123 = t81 * neg_mul_add(t102, t116, t105);
+        let t124 = t81 * neg_mul_add(t103, t116, t101);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t125 = mul_add(P::splat(platform_rotation[1][2]), t15, t94);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t126 = P::splat(platform_rotation[1][1]) * t20;
+        // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+        let t127 = P::load(&prepared[15]);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t128 = P::splat(base_rotation[0][1]) * t123;
+        let t129 = P::splat(base_rotation[1][1]) * t123;
+        let t130 = P::splat(base_rotation[2][1]) * t123;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t131 = mul_add(P::splat(base_rotation[1][2]), t46, t111);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t132 = P::splat(base_rotation[1][1]) * t45;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t133 = mul_add(P::splat(base_rotation[0][2]), t46, t112);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t134 = P::splat(base_rotation[0][1]) * t45;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t135 = mul_add(P::splat(platform_rotation[2][2]), t15, t113);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t136 = P::splat(platform_rotation[2][1]) * t20;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t137 = P::splat(base_rotation[0][1]) * t102;
+        let t138 = P::splat(base_rotation[1][1]) * t102;
+        let t139 = P::splat(base_rotation[2][1]) * t102;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t140 = t81 * t81;
+        let t141 = t81 * t115;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t142 = mul_add(P::splat(base_rotation[2][2]), t46, t117);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t143 = P::splat(base_rotation[2][1]) * t45;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t144 = neg_mul_add(t52, P::splat(P::lane(t63, 1)), t120);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t145 = mul_add(P::splat(base_rotation[0][0]), t124, t128);
+        let t146 = mul_add(P::splat(base_rotation[1][0]), t124, t129);
+        let t147 = mul_add(P::splat(base_rotation[2][0]), t124, t130);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t148 = mul_add(P::splat(platform_rotation[0][0]), t21, t122);
+        let t149 = mul_add(P::splat(platform_rotation[1][0]), t21, t126);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t150 = mul_add(P::splat(base_rotation[1][0]), t50, t132);
+        let t151 = mul_add(P::splat(base_rotation[0][0]), t50, t134);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t152 = t86 * neg_mul_add(t107, t119, t106);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t153 = t81 * neg_mul_add(t104, t116, t110);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t154 = t81 * (t81 * t116);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t155 = mul_add(P::splat(platform_rotation[2][0]), t21, t136);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t156 = mul_add(P::splat(base_rotation[0][0]), t103, t137);
+        let t157 = mul_add(P::splat(base_rotation[1][0]), t103, t138);
+        let t158 = mul_add(P::splat(base_rotation[2][0]), t103, t139);
+        // legs 4, 5, 6: first moment of the upper part about the platform joint
+        let t159 = P::load(&prepared[16]);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t160 = mul_sub(t127, t140, t141);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t161 = mul_add(P::splat(base_rotation[2][0]), t50, t143);
+        // legs 1, 2, 3: rate of the platform lever
+        let t162 = P::splat(platform_velocity[5]) * t125;
+        let t163 = P::splat(platform_velocity[4]) * t121;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t164 = P::splat(base_velocity[4]) * t133;
+        let t165 = P::splat(base_velocity[5]) * t131;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t166 = t127 * t140;
+        // legs 1, 2, 3: rate of the platform lever
+        let t167 = P::splat(platform_velocity[3]) * t135;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t168 = P::splat(base_velocity[3]) * t142;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t169 = t86 * neg_mul_add(t108, t119, t118);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t170 = mul_add(P::splat(base_rotation[0][2]), t153, t145);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t171 = P::splat(base_rotation[0][1]) * t152;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t172 = mul_add(P::splat(base_rotation[1][2]), t153, t146);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t173 = P::splat(base_rotation[1][1]) * t152;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t174 = mul_add(P::splat(base_rotation[2][2]), t153, t147);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t175 = P::splat(base_rotation[2][1]) * t152;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t176 = mul_add(P::splat(platform_rotation[0][2]), t22, t148);
+        let t177 = mul_add(P::splat(platform_rotation[1][2]), t22, t149);
+        // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+        let t178 = P::load(&prepared[17]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t179 = mul_add(P::splat(base_rotation[1][2]), t51, t150);
+        let t180 = mul_add(P::splat(base_rotation[0][2]), t51, t151);
+        // legs 1, 2, 3: rate of the platform lever
+        let t181 = mul_sub(P::splat(platform_velocity[4]), t135, t162);
+        let t182 = mul_sub(P::splat(platform_velocity[3]), t125, t163);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t183 = mul_add(P::splat(platform_rotation[2][2]), t22, t155);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t184 = mul_add(P::splat(base_rotation[0][2]), t104, t156);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t185 = P::splat(base_rotation[0][1]) * t107;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t186 = mul_add(P::splat(base_rotation[1][2]), t104, t157);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t187 = P::splat(base_rotation[1][1]) * t107;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t188 = mul_add(P::splat(base_rotation[2][2]), t104, t158);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t189 = P::splat(base_rotation[2][1]) * t107;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t190 = neg_mul_add(t160, w(2.0), t166);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t191 = t86 * t86;
+        let t192 = t86 * t159;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t193 = t67 * t81;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t194 = mul_add(P::splat(base_rotation[2][2]), t51, t161);
+        // legs 1, 2, 3: rate of the platform lever
+        let t195 = mul_sub(P::splat(platform_velocity[5]), t121, t167);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t196 = mul_add(P::splat(base_rotation[0][0]), t169, t171);
+        let t197 = mul_add(P::splat(base_rotation[1][0]), t169, t173);
+        let t198 = mul_add(P::splat(base_rotation[2][0]), t169, t175);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t199 = mul_sub(t127, t81 * t154, t115 * t154);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t200 = t86 * neg_mul_add(t109, t119, t144);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t201 = t86 * (t86 * t119);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t202 = mul_add(P::splat(base_rotation[0][0]), t108, t185);
+        let t203 = mul_add(P::splat(base_rotation[1][0]), t108, t187);
+        let t204 = mul_add(P::splat(base_rotation[2][0]), t108, t189);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t205 = neg_mul_add(t141, w(2.0), t166);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t206 = mul_sub(t178, t191, t192);
+        // legs 4, 5, 6: rate of the platform lever
+        let t207 = P::splat(platform_velocity[5]) * t177;
+        let t208 = P::splat(platform_velocity[4]) * t176;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t209 = P::splat(t55) + t181;
+        let t210 = P::splat(t56) + t182;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t211 = mul_sub(P::splat(base_velocity[3]), t131, t164) * t193;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t212 = P::splat(base_velocity[4]) * t180;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t213 = mul_sub(P::splat(base_velocity[4]), t142, t165) * t193;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t214 = P::splat(base_velocity[5]) * t179;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t215 = t184 * t190;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t216 = t178 * t191;
+        // legs 4, 5, 6: rate of the platform lever
+        let t217 = P::splat(platform_velocity[3]) * t183;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t218 = P::splat(t54) + t195;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t219 = t141 * t184;
+        let t220 = t141 * t186;
+        let t221 = t141 * t188;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t222 = t193 * mul_sub(P::splat(base_velocity[5]), t133, t168);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t223 = P::splat(base_velocity[3]) * t194;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t224 = t186 * t190;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t225 = mul_add(P::splat(base_rotation[0][2]), t200, t196);
+        let t226 = mul_add(P::splat(base_rotation[1][2]), t200, t197);
+        let t227 = mul_add(P::splat(base_rotation[2][2]), t200, t198);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t228 = mul_sub(t184, t199, t160 * t170);
+        let t229 = mul_sub(t186, t199, t160 * t172);
+        let t230 = mul_sub(t188, t199, t160 * t174);
+        // legs 4, 5, 6: rate of the platform lever
+        let t231 = mul_sub(P::splat(platform_velocity[4]), t183, t207);
+        let t232 = mul_sub(P::splat(platform_velocity[3]), t177, t208);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t233 = mul_add(P::splat(base_rotation[0][2]), t109, t202);
+        let t234 = mul_add(P::splat(base_rotation[1][2]), t109, t203);
+        let t235 = mul_add(P::splat(base_rotation[2][2]), t109, t204);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t236 = neg_mul_add(w(2.0), t206, t216);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t237 = t188 * t215;
+        let t238 = mul_add(t188, t188 * t190, t205);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t239 = t86 * t114;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t240 = t81 * t127;
+        // legs 4, 5, 6: rate of the platform lever
+        let t241 = mul_sub(P::splat(platform_velocity[5]), t176, t217);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t242 = t188 * t224;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t243 = mul_sub(t178, t86 * t201, t159 * t201);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t244 = neg_mul_add(w(2.0), t192, t216);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t245 = mul_add(t186, t224, t205);
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t246 = P::splat(t55) + t231;
+        let t247 = P::splat(t56) + t232;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t248 = neg_mul_add(t174, t240, mul_sub(t141, t210, t211));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t249 = mul_sub(P::splat(base_velocity[3]), t179, t212) * t239;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t250 = neg_mul_add(t170, t240, mul_sub(t141, t209, t213));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t251 = mul_sub(P::splat(base_velocity[4]), t194, t214) * t239;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t252 = P::splat(t8) + t121;
+        let t253 = P::splat(t13) + t135;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t254 = mul_add(t184, t215, t205);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t255 = t234 * t236;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t256 = t142 * t193;
+        let t257 = t133 * t193;
+        // mass matrix of the legs
+        let t258 = t121 * t242;
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t259 = P::splat(t54) + t241;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t260 = neg_mul_add(t184, t228, neg_mul_add(t170, t219, t199));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t261 = t192 * t233;
+        let t262 = t192 * t234;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t263 = neg_mul_add(t186, t229, neg_mul_add(t172, t220, t199));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t264 = t192 * t235;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t265 = neg_mul_add(t188, t230, neg_mul_add(t174, t221, t199));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t266 = neg_mul_add(t172, t240, mul_sub(t141, t218, t222));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t267 = t239 * mul_sub(P::splat(base_velocity[5]), t180, t223);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t268 = P::splat(t7) + t125;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t269 = t131 * t193;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t270 = mul_sub(t233, t243, t206 * t225);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t271 = mul_add(t174, t219, t188 * t228);
+        let t272 = mul_add(t170, t220, t184 * t229);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t273 = mul_sub(t234, t243, t206 * t226);
+        let t274 = mul_sub(t235, t243, t206 * t227);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t275 = mul_add(t172, t221, t186 * t230);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t276 = t186 * t215;
+        // mass matrix of the legs
+        let t277 = mul_sub(t121, t238, t135 * t237);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t278 = mul_sub(t141, t210, neg_mul_add(t115, t174, t211));
+        let t279 = mul_sub(t141, t218, neg_mul_add(t115, t172, t222));
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t280 = t233 * t236;
+        let t281 = mul_add(t234, t255, t244);
+        let t282 = t235 * t255;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t283 = t86 * t178;
+        // mass matrix of the legs
+        let t284 = mul_sub(t135, t242, t125 * t238);
+        let t285 = mul_sub(t125, t237, t258);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t286 = mul_sub(t141, t209, neg_mul_add(t115, t170, t213));
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t287 = mul_add(t172, t219, t186 * t228);
+        let t288 = mul_add(t174, t220, t188 * t229);
+        let t289 = mul_add(t170, t221, t184 * t230);
+        // Coriolis matrix of the legs
+        let t290 = t135 * t260;
+        let t291 = t121 * t263;
+        let t292 = t125 * t265;
+        // mass matrix of the legs
+        let t293 = mul_sub(t135, t276, t258);
+        // Coriolis matrix of the legs
+        let t294 = t125 * t271;
+        let t295 = t125 * t260;
+        let t296 = t135 * t263;
+        let t297 = t135 * t272;
+        let t298 = t181 * t242;
+        let t299 = t121 * t265;
+        let t300 = t121 * t275;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t301 = t234 * t280;
+        // mass matrix of the legs
+        let t302 = mul_sub(t135, t245, t125 * t242);
+        let t303 = t176 * t282;
+        let t304 = mul_sub(t125, t276, t121 * t245);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t305 = mul_sub(t188, t266, t186 * t248);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t306 = neg_mul_add(t227, t283, mul_sub(t192, t247, t249));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t307 = mul_sub(t184, t248, t188 * t250);
+        let t308 = mul_sub(t174, t240, t278);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t309 = neg_mul_add(t225, t283, mul_sub(t192, t246, t251));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t310 = mul_sub(t172, t240, t279);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t311 = P::splat(t8) + t176;
+        let t312 = P::splat(t13) + t183;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t313 = t235 * t280;
+        let t314 = mul_add(t235, t235 * t236, t244);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t315 = neg_mul_add(t188, t240, mul_sub(t141, t253, t256));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t316 = t194 * t239;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t317 = neg_mul_add(t184, t240, mul_sub(t141, t252, t257));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t318 = t180 * t239;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t319 = neg_mul_add(t233, t270, neg_mul_add(t225, t261, t243));
+        let t320 = neg_mul_add(t234, t273, neg_mul_add(t226, t262, t243));
+        let t321 = neg_mul_add(t235, t274, neg_mul_add(t227, t264, t243));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t322 = neg_mul_add(t226, t283, mul_sub(t192, t259, t267));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t323 = mul_sub(t186, t250, t184 * t266);
+        let t324 = mul_sub(t170, t240, t286);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t325 = P::splat(t7) + t177;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t326 = mul_add(t233, t280, t244);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t327 = neg_mul_add(t186, t240, mul_sub(t141, t268, t269));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t328 = t179 * t239;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t329 = mul_add(t227, t261, t235 * t270);
+        let t330 = mul_add(t225, t262, t233 * t273);
+        let t331 = mul_add(t226, t264, t234 * t274);
+        // mass matrix of the legs
+        let t332 = mul_sub(t183, t301, t303);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t333 = mul_sub(t192, t247, neg_mul_add(t159, t227, t249));
+        let t334 = mul_sub(t192, t259, neg_mul_add(t159, t226, t267));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t335 = mul_sub(t141, t253, neg_mul_add(t115, t188, t256));
+        let t336 = mul_sub(t141, t268, neg_mul_add(t115, t186, t269));
+        // mass matrix of the legs
+        let t337 = mul_sub(t183, t281, t177 * t282);
+        let t338 = mul_sub(t177, t301, t176 * t281);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t339 = mul_add(t226, t261, t234 * t270);
+        let t340 = mul_add(t227, t262, t235 * t273);
+        let t341 = mul_add(t225, t264, t233 * t274);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t342 = mul_add(t184, t307, t308);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t343 = mul_sub(t192, t246, neg_mul_add(t159, t225, t251));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t344 = mul_add(t188, t305, t310);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t345 = mul_sub(t141, t252, neg_mul_add(t115, t184, t257));
+        // mass matrix of the legs
+        let t346 = mul_sub(t121, t237, t135 * t254);
+        let t347 = mul_sub(t125, t254, t121 * t276);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t348 = mul_sub(t184, t323, t310);
+        let t349 = neg_mul_add(t186, t305, t308);
+        let t350 = mul_add(t186, t323, t324);
+        let t351 = neg_mul_add(t188, t307, t324);
+        // Coriolis matrix of the legs
+        let t352 = mul_add(t121, t271, t290) + mul_sub(t181, t237, t182 * t254);
+        let t353 = mul_add(t125, t272, t291) + mul_sub(t195, t276, t181 * t245);
+        let t354 = mul_add(t135, t275, t292) + mul_sub(t182, t242, t195 * t238);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t355 = t184 * t305;
+        let t356 = t186 * t307;
+        let t357 = t188 * t323;
+        // Coriolis matrix of the legs
+        let t358 = mul_sub(t135, t287, t294) + mul_sub(t182, t276, t195 * t237);
+        let t359 = mul_add(t121, t287, t295) - mul_sub(t195, t254, t181 * t276);
+        let t360 = mul_add(t125, t288, t296) - mul_sub(t182, t245, t195 * t242);
+        let t361 = mul_sub(t121, t288, t297) - mul_sub(t182, t276, t298);
+        let t362 = t231 * t282;
+        let t363 = mul_add(t135, t289, t299) - mul_sub(t181, t238, t182 * t237);
+        let t364 = mul_sub(t125, t289, t300) + mul_sub(t195, t237, t298);
+        // mass matrix of the legs
+        let t365 = mul_sub(t176, t314, t183 * t313);
+        let t366 = mul_add(t183, t332, mul_add(t135, t293, t125 * t277));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t367 = mul_sub(t235, t322, t234 * t306);
+        let t368 = mul_sub(t233, t306, t235 * t309);
+        let t369 = mul_sub(t227, t283, t333);
+        let t370 = mul_sub(t226, t283, t334);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t371 = mul_sub(t188, t327, t186 * t315);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t372 = neg_mul_add(t235, t283, mul_sub(t192, t312, t316));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t373 = mul_sub(t184, t315, t188 * t317);
+        let t374 = mul_sub(t188, t240, t335);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t375 = neg_mul_add(t233, t283, mul_sub(t192, t311, t318));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t376 = mul_sub(t186, t240, t336);
+        // mass matrix of the legs
+        let t377 = mul_sub(t183, t282, t177 * t314);
+        let t378 = mul_sub(t177, t313, t303);
+        let t379 = mul_add(t183, t337, mul_sub(t135, t302, t125 * t284));
+        let t380 = mul_add(t183, t338, mul_sub(t135, t304, t125 * t285));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t381 = mul_sub(t234, t309, t233 * t322);
+        let t382 = mul_sub(t225, t283, t343);
+        // Coriolis matrix of the legs
+        let t383 = mul_sub(t241, t326, t231 * t301);
+        let t384 = mul_sub(t232, t281, t241 * t282);
+        let t385 = mul_sub(t231, t314, t232 * t313);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t386 = neg_mul_add(t234, t283, mul_sub(t192, t325, t328));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t387 = mul_sub(t186, t317, t184 * t327);
+        let t388 = mul_sub(t184, t240, t345);
+        // Coriolis matrix of the legs
+        let t389 = mul_sub(t232, t301, t241 * t313);
+        let t390 = mul_sub(t231, t313, t232 * t326);
+        let t391 = mul_sub(t241, t301, t231 * t281);
+        let t392 = mul_sub(t232, t282, t241 * t314);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t393 = mul_sub(t192, t312, neg_mul_add(t159, t235, t316));
+        let t394 = mul_sub(t192, t325, neg_mul_add(t159, t234, t328));
+        // mass matrix of the legs
+        let t395 = mul_add(t186, t215, t301);
+        let t396 = mul_add(t188, t215, t313);
+        let t397 = mul_add(t177, t365, t366);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t398 = mul_add(t233, t368, t369);
+        let t399 = mul_add(t235, t367, t370);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t400 = mul_add(t184, t373, t374);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t401 = mul_sub(t192, t311, neg_mul_add(t159, t233, t318));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t402 = mul_add(t188, t371, t376);
+        // mass matrix of the legs
+        let t403 = t254 + t326;
+        let t404 = neg_mul_add(t177, t377, t379);
+        let t405 = neg_mul_add(t177, t378, t380);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t406 = mul_sub(t233, t381, t370);
+        let t407 = neg_mul_add(t234, t367, t369);
+        let t408 = mul_add(t234, t381, t382);
+        let t409 = neg_mul_add(t235, t368, t382);
+        // Coriolis matrix of the legs
+        let t410 = mul_add(t176, t339, t177 * t319) - t383;
+        let t411 = mul_add(t177, t340, t183 * t320) - t384;
+        let t412 = mul_add(t183, t341, t176 * t321) - t385;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t413 = mul_sub(t184, t387, t376);
+        let t414 = neg_mul_add(t186, t371, t374);
+        let t415 = mul_add(t186, t387, t388);
+        let t416 = neg_mul_add(t188, t373, t388);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t417 = t233 * t367;
+        let t418 = t234 * t368;
+        let t419 = t235 * t381;
+        // Coriolis matrix of the legs
+        let t420 = mul_sub(t183, t339, t177 * t329) + t389;
+        let t421 = mul_add(t176, t329, t183 * t319) + t390;
+        let t422 = mul_sub(t176, t340, t183 * t330) - mul_sub(t232, t301, t362);
+        let t423 = mul_add(t177, t330, t176 * t320) + t391;
+        let t424 = mul_add(t183, t331, t177 * t321) + t392;
+        let t425 = mul_sub(t177, t341, t176 * t331) + mul_sub(t241, t313, t362);
+        let t426 = mul_sub(t177, t341, neg_mul_add(t125, t289, t297));
+        let t427 = mul_add(t177, t321, mul_add(t135, t288, t292));
+        let t428 = mul_add(t183, t319, mul_add(t121, t289, t290));
+        let t429 = mul_add(t183, t339, mul_sub(t135, t287, t300));
+        let t430 = mul_add(t176, t320, mul_add(t125, t287, t291));
+        let t431 = mul_sub(t176, t340, neg_mul_add(t121, t288, t294));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t432 = neg_mul_add(t67, t81, t141);
+        let t433 = t184 * t371;
+        let t434 = t186 * t373;
+        let t435 = t188 * t387;
+        // Coriolis matrix of the legs
+        let t436 = mul_add(t177, t331, mul_add(t125, t275, t296));
+        let t437 = mul_add(t183, t329, mul_add(t135, t271, t299));
+        let t438 = mul_add(t176, t330, mul_add(t121, t272, t295));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t439 = mul_sub(t235, t386, t234 * t372);
+        let t440 = mul_sub(t233, t372, t235 * t375);
+        let t441 = mul_sub(t235, t283, t393);
+        let t442 = mul_sub(t234, t283, t394);
+        // Coriolis matrix of the legs
+        let t443 = mul_add(t183, t411, mul_add(t135, t360, t125 * t354));
+        let t444 = mul_add(t176, t412, mul_add(t121, t363, t135 * t352));
+        let t445 = mul_add(t177, t410, mul_add(t125, t359, t121 * t353));
+        // Coriolis matrix C_b, natural factorisation
+        let t446 = mul_add(t177, t399, mul_add(t135, t349, t125 * t344));
+        let t447 = mul_add(t183, t398, mul_add(t121, t351, t135 * t342));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t448 = mul_sub(t234, t375, t233 * t386);
+        let t449 = mul_sub(t233, t283, t401);
+        // mass matrix of the legs
+        let t450 = mul_sub(t176, t313, t183 * t326);
+        let t451 = mul_sub(t177, t326, t176 * t301);
+        let t452 = mul_add(t176, t365, mul_sub(t121, t277, t135 * t346));
+        let t453 = mul_add(t176, t378, mul_sub(t121, t285, t135 * t347));
+        // Coriolis matrix of the legs
+        let t454 = mul_add(t183, t422, mul_add(t135, t361, t125 * t363));
+        let t455 = mul_add(t183, t423, mul_sub(t135, t353, t125 * t364));
+        let t456 = mul_add(t176, t424, mul_sub(t121, t354, t135 * t358));
+        let t457 = mul_add(t176, t425, mul_add(t121, t364, t135 * t359));
+        let t458 = mul_add(t177, t420, mul_add(t125, t358, t121 * t360));
+        let t459 = mul_add(t177, t421, mul_sub(t125, t352, t121 * t361));
+        // Coriolis matrix C_b, natural factorisation
+        let t460 = mul_add(t177, t409, mul_add(t135, t356, t125 * t351));
+        let t461 = neg_mul_add(t177, t419, mul_sub(t135, t350, t125 * t357));
+        let t462 = neg_mul_add(t183, t417, mul_sub(t121, t344, t135 * t355));
+        let t463 = neg_mul_add(t183, t406, mul_sub(t121, t357, t135 * t348));
+        let t464 = mul_add(t176, t407, mul_add(t125, t355, t121 * t349));
+        let t465 = neg_mul_add(t176, t418, mul_sub(t125, t342, t121 * t356));
+        let t466 = neg_mul_add(t176, t408, mul_sub(t125, t348, t121 * t350));
+        // Coriolis matrix of the legs
+        let t467 = mul_sub(t183, t330, t426);
+        let t468 = mul_add(t183, t340, t427);
+        let t469 = mul_add(t176, t341, t428);
+        let t470 = mul_sub(t176, t331, t429);
+        let t471 = mul_add(t177, t339, t430);
+        let t472 = mul_sub(t177, t329, t431);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t473 = t184 * t432;
+        let t474 = t186 * t432;
+        let t475 = t188 * t432;
+        // Coriolis matrix of the legs
+        let t476 = mul_add(t183, t320, t436);
+        let t477 = mul_add(t176, t321, t437);
+        let t478 = mul_add(t177, t319, t438);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t479 = mul_add(t233, t440, t441);
+        let t480 = mul_add(t235, t439, t442);
+        // mass matrix of the legs
+        let t481 = mul_add(t188, t224, t282);
+        let t482 = P::triple([P::lane(t403, 0), P::lane(t395, 0), P::lane(t396, 0)]);
+        let t483 = P::triple([P::lane(t403, 1), P::lane(t395, 1), P::lane(t396, 1)]);
+        // Coriolis matrix of the legs
+        let t484 = t260 + t319;
+        let t485 = t263 + t320;
+        let t486 = t265 + t321;
+        let t487 = mul_add(t177, t424, t443);
+        let t488 = mul_add(t183, t421, t444);
+        let t489 = mul_add(t176, t423, t445);
+        // Coriolis matrix C_b, natural factorisation
+        let t490 = mul_add(t183, t407, t446);
+        let t491 = mul_add(t176, t409, t447);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t492 = mul_sub(t233, t448, t442);
+        let t493 = neg_mul_add(t234, t439, t441);
+        let t494 = mul_add(t234, t448, t449);
+        let t495 = neg_mul_add(t235, t440, t449);
+        // mass matrix of the legs
+        let t496 = t245 + t281;
+        let t497 = neg_mul_add(t183, t450, t452);
+        let t498 = neg_mul_add(t183, t451, t453);
+        let t499 = P::triple([P::lane(t404, 0), -P::lane(t397, 0), P::lane(t405, 0)]);
+        let t500 = P::triple([P::lane(t404, 1), -P::lane(t397, 1), P::lane(t405, 1)]);
+        // Coriolis matrix of the legs
+        let t501 = t287 + t339;
+        let t502 = t271 + t329;
+        let t503 = t272 + t330;
+        let t504 = t288 + t340;
+        let t505 = t289 + t341;
+        let t506 = t275 + t331;
+        let t507 = mul_add(t177, t412, t454);
+        let t508 = neg_mul_add(t177, t425, t455);
+        let t509 = neg_mul_add(t183, t420, t456);
+        let t510 = mul_add(t183, t410, t457);
+        let t511 = mul_add(t176, t411, t458);
+        let t512 = neg_mul_add(t176, t422, t459);
+        // Coriolis matrix C_b, natural factorisation
+        let t513 = mul_add(t183, t418, t460);
+        let t514 = mul_add(t183, t408, t461);
+        let t515 = mul_add(t176, t399, t462);
+        let t516 = mul_add(t176, t419, t463);
+        let t517 = mul_add(t177, t417, t464);
+        let t518 = mul_add(t177, t398, t465);
+        let t519 = mul_add(t177, t406, t466);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t520 = neg_mul_add(t184, t473, t432);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t521 = neg_mul_add(t86, t114, t192);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t522 = t184 * t475;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t523 = t233 * t439;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t524 = t186 * t473;
+        let t525 = neg_mul_add(t186, t474, t432);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t526 = t234 * t440;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t527 = t188 * t474;
+        let t528 = neg_mul_add(t188, t475, t432);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t529 = t235 * t448;
+        // Coriolis matrix of the legs
+        let t530 = t359 + t410;
+        let t531 = t360 + t411;
+        let t532 = t363 + t412;
+        // Coriolis matrix C_b, natural factorisation
+        let t533 = mul_add(t184, t305, t417);
+        let t534 = t349 + t407;
+        let t535 = mul_add(t186, t307, t418);
+        let t536 = t351 + t409;
+        let t537 = mul_add(t188, t323, t419);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t538 = t184 * t474;
+        let t539 = t186 * t475;
+        let t540 = t188 * t473;
+        // mass matrix of the legs
+        let t541 = mul_add(t183, t301, mul_sub(t135, t276, t125 * t237));
+        let t542 = P::triple([P::lane(t403, 2), P::lane(t395, 2), P::lane(t396, 2)]);
+        // Coriolis matrix of the legs
+        let t543 = t358 + t420;
+        let t544 = t352 + t421;
+        let t545 = t361 + t422;
+        let t546 = t353 + t423;
+        let t547 = t354 + t424;
+        let t548 = t364 + t425;
+        // Coriolis matrix C_b, natural factorisation
+        let t549 = t342 + t398;
+        let t550 = t348 + t406;
+        let t551 = t350 + t408;
+        let t552 = t344 + t399;
+        // mass matrix of the legs
+        let t553 = t482 + t483 + t542;
+        let t554 = P::triple([P::lane(t404, 2), -P::lane(t397, 2), P::lane(t405, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t555 = mul_add(t177, t480, mul_add(t135, t414, t125 * t402));
+        let t556 = mul_add(t183, t479, mul_add(t121, t416, t135 * t400));
+        // mass matrix M_p of the platform
+        let t557 = platform_rotation[1][1] * prepared[18][1];
+        let t558 = platform_rotation[2][1] * prepared[18][1];
+        // mass matrix of the legs
+        let t559 = mul_add(t177, t451, mul_sub(t125, t347, t121 * t304));
+        let t560 = t499 + t500 + t554;
+        // mass matrix M_b that couples the base acceleration
+        let t561 = mul_add(t177, t495, mul_add(t135, t434, t125 * t416));
+        let t562 = neg_mul_add(t177, t529, mul_sub(t135, t415, t125 * t435));
+        let t563 = neg_mul_add(t183, t523, mul_sub(t121, t402, t135 * t433));
+        let t564 = neg_mul_add(t183, t492, mul_sub(t121, t435, t135 * t413));
+        let t565 = mul_add(t176, t493, mul_add(t125, t433, t121 * t414));
+        let t566 = neg_mul_add(t176, t526, mul_sub(t125, t400, t121 * t434));
+        let t567 = neg_mul_add(t176, t494, mul_sub(t125, t413, t121 * t415));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t568 = t233 * t521;
+        let t569 = t234 * t521;
+        let t570 = t235 * t521;
+        // mass matrix of the legs
+        let t571 = neg_mul_add(t177, t313, t541);
+        let t572 = t293 + t332;
+        // Coriolis matrix of the legs
+        let t573 = P::triple([-P::lane(t467, 0), P::lane(t476, 0), -P::lane(t468, 0)]);
+        let t574 = P::triple([-P::lane(t467, 1), P::lane(t476, 1), -P::lane(t468, 1)]);
+        let t575 = P::triple([-P::lane(t469, 0), -P::lane(t470, 0), P::lane(t477, 0)]);
+        let t576 = P::triple([-P::lane(t469, 1), -P::lane(t470, 1), P::lane(t477, 1)]);
+        let t577 = P::triple([P::lane(t478, 0), -P::lane(t471, 0), -P::lane(t472, 0)]);
+        let t578 = P::triple([P::lane(t478, 1), -P::lane(t471, 1), -P::lane(t472, 1)]);
+        // mass matrix M_p of the platform
+        let t579 = platform_rotation[0][1] * prepared[18][1];
+        let t580 = platform_rotation[1][1] * prepared[19][0];
+        let t581 = P::mul_add(platform_rotation[1][0], prepared[19][0], t557);
+        let t582 = platform_rotation[2][1] * prepared[19][0];
+        let t583 = P::mul_add(platform_rotation[2][0], prepared[19][0], t558);
+        // mass matrix of the legs
+        let t584 = t346 + t450;
+        let t585 = t347 + t451;
+        let t586 = t302 + t337;
+        let t587 = t304 + t338;
+        let t588 = t284 + t377;
+        let t589 = t277 + t365;
+        let t590 = t285 + t378;
+        let t591 = P::lane(t481, 1) + P::lane(t481, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t592 = mul_add(t183, t493, t555);
+        let t593 = mul_add(t176, t495, t556);
+        // Coriolis matrix of the legs
+        let t594 = P::triple([-P::lane(t484, 0), P::lane(t501, 0), P::lane(t502, 0)]);
+        let t595 = P::triple([-P::lane(t484, 1), P::lane(t501, 1), P::lane(t502, 1)]);
+        let t596 = P::triple([P::lane(t503, 0), -P::lane(t485, 0), P::lane(t504, 0)]);
+        let t597 = P::triple([P::lane(t503, 1), -P::lane(t485, 1), P::lane(t504, 1)]);
+        let t598 = P::triple([P::lane(t505, 0), P::lane(t506, 0), -P::lane(t486, 0)]);
+        let t599 = P::triple([P::lane(t505, 1), P::lane(t506, 1), -P::lane(t486, 1)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t600 = neg_mul_add(t233, t568, t521);
+        let t601 = t233 * t570;
+        let t602 = t234 * t568;
+        let t603 = neg_mul_add(t234, t569, t521);
+        let t604 = t235 * t569;
+        let t605 = neg_mul_add(t235, t570, t521);
+        // mass matrix of the legs
+        let t606 = t238 + t314;
+        let t607 = neg_mul_add(t176, t338, t559);
+        let t608 = P::lane(t498, 1) + P::lane(t498, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t609 = mul_add(t183, t526, t561);
+        let t610 = mul_add(t183, t494, t562);
+        let t611 = mul_add(t176, t480, t563);
+        let t612 = mul_add(t176, t529, t564);
+        let t613 = mul_add(t177, t523, t565);
+        let t614 = mul_add(t177, t479, t566);
+        let t615 = mul_add(t177, t492, t567);
+        // Coriolis matrix of the legs
+        let t616 = P::triple([-P::lane(t487, 0), P::lane(t507, 0), P::lane(t508, 0)]);
+        let t617 = P::triple([-P::lane(t487, 1), P::lane(t507, 1), P::lane(t508, 1)]);
+        let t618 = P::triple([P::lane(t509, 0), -P::lane(t488, 0), P::lane(t510, 0)]);
+        let t619 = P::triple([P::lane(t509, 1), -P::lane(t488, 1), P::lane(t510, 1)]);
+        let t620 = P::triple([P::lane(t511, 0), P::lane(t512, 0), -P::lane(t489, 0)]);
+        let t621 = P::triple([P::lane(t511, 1), P::lane(t512, 1), -P::lane(t489, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t622 = P::triple([-P::lane(t490, 0), P::lane(t513, 0), P::lane(t514, 0)]);
+        let t623 = P::triple([-P::lane(t490, 1), P::lane(t513, 1), P::lane(t514, 1)]);
+        let t624 = P::triple([P::lane(t515, 0), -P::lane(t491, 0), P::lane(t516, 0)]);
+        let t625 = P::triple([P::lane(t515, 1), -P::lane(t491, 1), P::lane(t516, 1)]);
+        let t626 = P::triple([P::lane(t517, 0), P::lane(t518, 0), P::lane(t519, 0)]);
+        let t627 = P::triple([P::lane(t517, 1), P::lane(t518, 1), P::lane(t519, 1)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t628 = t233 * t569;
+        let t629 = t234 * t570;
+        let t630 = t235 * t568;
+        // mass matrix M_b that couples the base acceleration
+        let t631 = mul_add(t184, t371, t523);
+        let t632 = t414 + t493;
+        let t633 = mul_add(t186, t373, t526);
+        let t634 = t416 + t495;
+        let t635 = mul_add(t188, t387, t529);
+        // Coriolis matrix of the legs
+        let t636 = P::triple([P::lane(t543, 0), P::lane(t544, 0), -P::lane(t530, 0)]);
+        let t637 = P::triple([P::lane(t543, 1), P::lane(t544, 1), -P::lane(t530, 1)]);
+        let t638 = P::triple([-P::lane(t531, 0), P::lane(t545, 0), P::lane(t546, 0)]);
+        let t639 = P::triple([-P::lane(t531, 1), P::lane(t545, 1), P::lane(t546, 1)]);
+        let t640 = P::triple([P::lane(t547, 0), -P::lane(t532, 0), P::lane(t548, 0)]);
+        let t641 = P::triple([P::lane(t547, 1), -P::lane(t532, 1), P::lane(t548, 1)]);
+        let t642 = P::triple([-P::lane(t467, 2), P::lane(t476, 2), -P::lane(t468, 2)]);
+        let t643 = P::triple([-P::lane(t469, 2), -P::lane(t470, 2), P::lane(t477, 2)]);
+        let t644 = P::triple([P::lane(t478, 2), -P::lane(t471, 2), -P::lane(t472, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t645 = P::triple([P::lane(t533, 0), P::lane(t549, 0), P::lane(t550, 0)]);
+        let t646 = P::triple([P::lane(t533, 1), P::lane(t549, 1), P::lane(t550, 1)]);
+        let t647 = P::triple([-P::lane(t534, 0), P::lane(t535, 0), P::lane(t551, 0)]);
+        let t648 = P::triple([-P::lane(t534, 1), P::lane(t535, 1), P::lane(t551, 1)]);
+        let t649 = P::triple([P::lane(t552, 0), -P::lane(t536, 0), P::lane(t537, 0)]);
+        let t650 = P::triple([P::lane(t552, 1), -P::lane(t536, 1), P::lane(t537, 1)]);
+        // mass matrix M_p of the platform
+        let t651 = platform_rotation[0][1] * prepared[19][0];
+        let t652 = P::mul_add(platform_rotation[0][0], prepared[19][0], t579);
+        let t653 = P::mul_add(platform_rotation[1][0], prepared[18][0], t580);
+        let t654 = P::mul_add(platform_rotation[2][0], prepared[18][0], t582);
+        // mass matrix of the legs
+        let t655 = P::triple([P::lane(t553, 1), P::lane(t496, 2), P::lane(t481, 2)]);
+        let t656 = P::triple([c(0.0), P::lane(t496, 1) + P::lane(t496, 0), t591]);
+        // mass matrix M_b that couples the base acceleration
+        let t657 = t400 + t479;
+        let t658 = t413 + t492;
+        let t659 = t415 + t494;
+        let t660 = t402 + t480;
+        // Coriolis matrix of the legs
+        let t661 = P::triple([-P::lane(t484, 2), P::lane(t501, 2), P::lane(t502, 2)]);
+        let t662 = P::triple([P::lane(t503, 2), -P::lane(t485, 2), P::lane(t504, 2)]);
+        let t663 = P::triple([P::lane(t505, 2), P::lane(t506, 2), -P::lane(t486, 2)]);
+        let t664 = t573 + t574 + t642;
+        let t665 = t575 + t576 + t643;
+        let t666 = t577 + t578 + t644;
+        // mass matrix M_p of the platform
+        let t667 = P::mul_add(platform_rotation[1][2], prepared[19][1], t581);
+        let t668 = platform_rotation[1][1] * prepared[19][1];
+        let t669 = P::mul_add(platform_rotation[2][2], prepared[19][1], t583);
+        let t670 = platform_rotation[2][1] * prepared[19][1];
+        // mass matrix of the legs
+        let t671 = t655 + t656;
+        let t672 = P::triple([P::lane(t560, 1), P::lane(t497, 2), P::lane(t498, 2)]);
+        let t673 = P::triple([c(0.0), P::lane(t497, 1) + P::lane(t497, 0), t608]);
+        // mass matrix M_b that couples the base acceleration
+        let t674 = mul_add(t177, t604, mul_add(t135, t525, t125 * t527));
+        let t675 = mul_add(t183, t601, mul_add(t121, t528, t135 * t522));
+        let t676 = mul_add(t176, t602, mul_add(t125, t520, t121 * t524));
+        // Coriolis matrix of the legs
+        let t677 = t594 + t595 + t661;
+        let t678 = t596 + t597 + t662;
+        let t679 = t598 + t599 + t663;
+        let t680 = P::triple([-P::lane(t487, 2), P::lane(t507, 2), P::lane(t508, 2)]);
+        let t681 = P::triple([P::lane(t509, 2), -P::lane(t488, 2), P::lane(t510, 2)]);
+        let t682 = P::triple([P::lane(t511, 2), P::lane(t512, 2), -P::lane(t489, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t683 = P::triple([-P::lane(t490, 2), P::lane(t513, 2), P::lane(t514, 2)]);
+        let t684 = P::triple([P::lane(t515, 2), -P::lane(t491, 2), P::lane(t516, 2)]);
+        let t685 = P::triple([P::lane(t517, 2), P::lane(t518, 2), P::lane(t519, 2)]);
+        // mass matrix of the legs
+        let t686 = t672 + t673;
+        // mass matrix M_b that couples the base acceleration
+        let t687 = neg_mul_add(t177, t630, mul_sub(t135, t524, t125 * t540));
+        let t688 = mul_add(t177, t605, mul_add(t135, t539, t125 * t528));
+        let t689 = mul_add(t183, t600, mul_add(t121, t540, t135 * t520));
+        let t690 = neg_mul_add(t183, t628, mul_sub(t121, t527, t135 * t538));
+        let t691 = mul_add(t176, t603, mul_add(t125, t538, t121 * t525));
+        let t692 = neg_mul_add(t176, t629, mul_sub(t125, t522, t121 * t539));
+        // Coriolis matrix of the legs
+        let t693 = P::triple([P::lane(t543, 2), P::lane(t544, 2), -P::lane(t530, 2)]);
+        let t694 = P::triple([-P::lane(t531, 2), P::lane(t545, 2), P::lane(t546, 2)]);
+        let t695 = P::triple([P::lane(t547, 2), -P::lane(t532, 2), P::lane(t548, 2)]);
+        let t696 = t616 + t617 + t680;
+        let t697 = t618 + t619 + t681;
+        let t698 = t620 + t621 + t682;
+        // Coriolis matrix C_b, natural factorisation
+        let t699 = P::triple([P::lane(t533, 2), P::lane(t549, 2), P::lane(t550, 2)]);
+        let t700 = P::triple([-P::lane(t534, 2), P::lane(t535, 2), P::lane(t551, 2)]);
+        let t701 = P::triple([P::lane(t552, 2), -P::lane(t536, 2), P::lane(t537, 2)]);
+        // mass matrix M_p of the platform
+        let t702 = P::mul_add(platform_rotation[0][0], prepared[18][0], t651);
+        // Coriolis matrix of the legs
+        let t703 = t636 + t637 + t693;
+        let t704 = t638 + t639 + t694;
+        let t705 = t640 + t641 + t695;
+        // mass matrix M_p of the platform
+        let t706 = P::mul_add(platform_rotation[0][2], prepared[19][1], t652);
+        let t707 = platform_rotation[0][1] * prepared[19][1];
+        let t708 = P::mul_add(platform_rotation[1][2], prepared[19][2], t653);
+        let t709 = P::mul_add(platform_rotation[1][0], prepared[19][2], t668);
+        let t710 = P::mul_add(platform_rotation[2][2], prepared[19][2], t654);
+        let t711 = P::mul_add(platform_rotation[2][0], prepared[19][2], t670);
+        // mass matrix of the legs
+        let t712 = P::triple([P::lane(t571, 0), P::lane(t584, 0), P::lane(t585, 0)]);
+        let t713 = P::triple([P::lane(t571, 1), P::lane(t584, 1), P::lane(t585, 1)]);
+        let t714 = P::triple([P::lane(t586, 0), -P::lane(t572, 0), P::lane(t587, 0)]);
+        let t715 = P::triple([P::lane(t586, 1), -P::lane(t572, 1), P::lane(t587, 1)]);
+        let t716 = P::triple([P::lane(t588, 0), P::lane(t589, 0), P::lane(t590, 0)]);
+        let t717 = P::triple([P::lane(t588, 1), P::lane(t589, 1), P::lane(t590, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t718 = mul_add(t183, t603, t674);
+        let t719 = mul_add(t176, t605, t675);
+        let t720 = mul_add(t177, t600, t676);
+        let t721 = mul_add(t183, t602, t687);
+        let t722 = mul_add(t183, t629, t688);
+        let t723 = mul_add(t176, t630, t689);
+        let t724 = mul_add(t176, t604, t690);
+        let t725 = mul_add(t177, t628, t691);
+        let t726 = mul_add(t177, t601, t692);
+        let t727 = P::triple([-P::lane(t592, 0), P::lane(t609, 0), P::lane(t610, 0)]);
+        let t728 = P::triple([-P::lane(t592, 1), P::lane(t609, 1), P::lane(t610, 1)]);
+        let t729 = P::triple([P::lane(t611, 0), -P::lane(t593, 0), P::lane(t612, 0)]);
+        let t730 = P::triple([P::lane(t611, 1), -P::lane(t593, 1), P::lane(t612, 1)]);
+        let t731 = P::triple([P::lane(t613, 0), P::lane(t614, 0), P::lane(t615, 0)]);
+        let t732 = P::triple([P::lane(t613, 1), P::lane(t614, 1), P::lane(t615, 1)]);
+        // mass matrix M_p of the platform
+        let t733 = P::mul_add(platform_rotation[0][2], prepared[19][2], t702);
+        let t734 = P::mul_add(platform_rotation[0][0], prepared[19][2], t707);
+        // mass matrix of the legs
+        let t735 = P::triple([P::lane(t571, 2), P::lane(t584, 2), P::lane(t585, 2)]);
+        let t736 = P::triple([P::lane(t586, 2), -P::lane(t572, 2), P::lane(t587, 2)]);
+        let t737 = P::triple([P::lane(t588, 2), P::lane(t589, 2), P::lane(t590, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t738 = t520 + t600;
+        let t739 = mul_add(t184, t474, t628);
+        let t740 = mul_add(t184, t475, t601);
+        let t741 = mul_add(t186, t473, t602);
+        let t742 = t525 + t603;
+        let t743 = mul_add(t186, t475, t629);
+        let t744 = mul_add(t188, t473, t630);
+        let t745 = mul_add(t188, t474, t604);
+        let t746 = t528 + t605;
+        let t747 = P::triple([P::lane(t631, 0), P::lane(t657, 0), P::lane(t658, 0)]);
+        let t748 = P::triple([P::lane(t631, 1), P::lane(t657, 1), P::lane(t658, 1)]);
+        let t749 = P::triple([-P::lane(t632, 0), P::lane(t633, 0), P::lane(t659, 0)]);
+        let t750 = P::triple([-P::lane(t632, 1), P::lane(t633, 1), P::lane(t659, 1)]);
+        let t751 = P::triple([P::lane(t660, 0), -P::lane(t634, 0), P::lane(t635, 0)]);
+        let t752 = P::triple([P::lane(t660, 1), -P::lane(t634, 1), P::lane(t635, 1)]);
+        // platform origin seen from the base
+        let t753 = P::triple([t13, t8, t7]);
+        // Coriolis matrix of the legs
+        let t754 = P::triple([P::lane(t664, 1), P::lane(t664, 2), P::lane(t664, 0)]);
+        let t755 = P::triple([P::lane(t665, 1), P::lane(t665, 2), P::lane(t665, 0)]);
+        let t756 = P::triple([P::lane(t666, 1), P::lane(t666, 2), P::lane(t666, 0)]);
+        // mass matrix M_p of the platform
+        let t757 = platform_rotation[2][1] * prepared[20][1];
+        let t758 = platform_rotation[1][1] * prepared[20][1];
+        let t759 = platform_rotation[0][1] * prepared[20][1];
+        let t760 = P::mul_add(platform_rotation[1][0], t708, platform_rotation[1][1] * t667);
+        let t761 = P::mul_add(platform_rotation[1][2], prepared[18][2], t709);
+        let t762 = P::mul_add(platform_rotation[2][0], t710, platform_rotation[2][1] * t669);
+        let t763 = P::mul_add(platform_rotation[2][2], prepared[18][2], t711);
+        // mass matrix of the legs
+        let t764 = t712 + t713 + t735;
+        let t765 = t714 + t715 + t736;
+        let t766 = P::triple([P::lane(t553, 2), P::lane(t671, 2), P::lane(t606, 2)]);
+        let t767 = P::triple([c(0.0), c(0.0), P::lane(t606, 1) + P::lane(t606, 0)]);
+        let t768 = t716 + t717 + t737;
+        // Coriolis matrix of the legs
+        let t769 = P::triple([P::lane(t677, 1), P::lane(t677, 2), P::lane(t677, 0)]);
+        let t770 = P::triple([P::lane(t678, 1), P::lane(t678, 2), P::lane(t678, 0)]);
+        let t771 = P::triple([P::lane(t679, 1), P::lane(t679, 2), P::lane(t679, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t772 = neg_mul_add(t753, t754, t696 + (t622 + t623 + t683));
+        let t773 = neg_mul_add(t753, t755, t697 + (t624 + t625 + t684));
+        let t774 = neg_mul_add(t753, t756, t698 + (t626 + t627 + t685));
+        // mass matrix of the legs
+        let t775 = t766 + t767;
+        let t776 = P::triple([P::lane(t560, 2), P::lane(t686, 2), P::lane(t607, 2)]);
+        let t777 = P::triple([c(0.0), c(0.0), P::lane(t607, 1) + P::lane(t607, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t778 = P::triple([-P::lane(t592, 2), P::lane(t609, 2), P::lane(t610, 2)]);
+        let t779 = P::triple([P::lane(t611, 2), -P::lane(t593, 2), P::lane(t612, 2)]);
+        let t780 = P::triple([P::lane(t613, 2), P::lane(t614, 2), P::lane(t615, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t781 = mul_add(t753, t769, t703 + (t645 + t646 + t699));
+        let t782 = mul_add(t753, t770, t704 + (t647 + t648 + t700));
+        let t783 = mul_add(t753, t771, t705 + (t649 + t650 + t701));
+        // mass matrix of the legs
+        let t784 = t776 + t777;
+        // mass matrix M_b that couples the base acceleration
+        let t785 = P::triple([P::lane(t631, 2), P::lane(t657, 2), P::lane(t658, 2)]);
+        let t786 = P::triple([-P::lane(t632, 2), P::lane(t633, 2), P::lane(t659, 2)]);
+        let t787 = P::triple([P::lane(t660, 2), -P::lane(t634, 2), P::lane(t635, 2)]);
+        // mass matrix M_p of the platform
+        let t788 = P::mul_add(platform_rotation[2][0], prepared[20][0], t757);
+        let t789 = P::mul_add(platform_rotation[1][0], prepared[20][0], t758);
+        let t790 = P::mul_add(platform_rotation[0][0], prepared[20][0], t759);
+        let t791 = P::mul_add(platform_rotation[0][0], t733, platform_rotation[0][1] * t706);
+        let t792 = P::mul_add(platform_rotation[0][2], prepared[18][2], t734);
+        // platform origin seen from the base
+        let t793 = P::triple([t7, t13, t8]);
+        // Coriolis matrix of the legs
+        let t794 = P::triple([P::lane(t664, 2), P::lane(t664, 0), P::lane(t664, 1)]);
+        let t795 = P::triple([P::lane(t665, 2), P::lane(t665, 0), P::lane(t665, 1)]);
+        let t796 = P::triple([P::lane(t666, 2), P::lane(t666, 0), P::lane(t666, 1)]);
+        // mass matrix M_p of the platform
+        let t797 = P::mul_add(platform_rotation[1][0], t733, platform_rotation[1][1] * t706);
+        let t798 = P::mul_add(platform_rotation[2][0], t733, platform_rotation[2][1] * t706);
+        let t799 = P::mul_add(platform_rotation[1][2], t761, t760);
+        let t800 = P::mul_add(platform_rotation[2][0], t708, platform_rotation[2][1] * t667);
+        let t801 = P::mul_add(platform_rotation[2][2], t763, t762);
+        // Coriolis matrix of the legs
+        let t802 = P::triple([P::lane(t677, 2), P::lane(t677, 0), P::lane(t677, 1)]);
+        let t803 = P::triple([P::lane(t678, 2), P::lane(t678, 0), P::lane(t678, 1)]);
+        let t804 = P::triple([P::lane(t679, 2), P::lane(t679, 0), P::lane(t679, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t805 = P::triple([P::lane(t721, 0), -P::lane(t718, 0), P::lane(t722, 0)]);
+        let t806 = P::triple([P::lane(t721, 1), -P::lane(t718, 1), P::lane(t722, 1)]);
+        let t807 = P::triple([P::lane(t723, 0), P::lane(t724, 0), -P::lane(t719, 0)]);
+        let t808 = P::triple([P::lane(t723, 1), P::lane(t724, 1), -P::lane(t719, 1)]);
+        let t809 = P::triple([-P::lane(t720, 0), P::lane(t725, 0), P::lane(t726, 0)]);
+        let t810 = P::triple([-P::lane(t720, 1), P::lane(t725, 1), P::lane(t726, 1)]);
+        // mass matrix M_p of the platform
+        let t811 = P::mul_add(platform_rotation[2][2], prepared[20][2], t788);
+        let t812 = P::mul_add(platform_rotation[1][2], prepared[20][2], t789);
+        let t813 = P::mul_add(platform_rotation[0][2], prepared[20][2], t790);
+        let t814 = P::mul_add(platform_rotation[0][2], t792, t791);
+        // mass matrix M_b that couples the base acceleration
+        let t815 = P::triple([-P::lane(t738, 0), P::lane(t739, 0), P::lane(t740, 0)]);
+        let t816 = P::triple([-P::lane(t738, 1), P::lane(t739, 1), P::lane(t740, 1)]);
+        let t817 = P::triple([P::lane(t741, 0), -P::lane(t742, 0), P::lane(t743, 0)]);
+        let t818 = P::triple([P::lane(t741, 1), -P::lane(t742, 1), P::lane(t743, 1)]);
+        let t819 = P::triple([P::lane(t744, 0), P::lane(t745, 0), -P::lane(t746, 0)]);
+        let t820 = P::triple([P::lane(t744, 1), P::lane(t745, 1), -P::lane(t746, 1)]);
+        // mass matrix of the legs
+        let t821 = P::triple([P::lane(t765, 0), P::lane(t768, 0), P::lane(t764, 0)]);
+        let t822 = P::triple([P::lane(t765, 1), P::lane(t768, 1), P::lane(t764, 1)]);
+        let t823 = P::triple([P::lane(t765, 2), P::lane(t768, 2), P::lane(t764, 2)]);
+        // velocity of the platform origin relative to the base
+        let t824 = P::triple([t56, t55, t54]);
+        // mass matrix M_p of the platform
+        let t825 = P::mul_add(platform_rotation[1][2], t792, t797);
+        let t826 = P::mul_add(platform_rotation[2][2], t792, t798);
+        let t827 = P::mul_add(platform_rotation[2][2], t761, t800);
+        // Coriolis matrix C_p, natural factorisation
+        let t828 = P::mul_sub(prepared[24][0], c(0.5), t799);
+        let t829 = P::mul_sub(prepared[24][0], c(0.5), t801);
+        // mass matrix of the legs
+        let t830 = P::triple([P::lane(t553, 1), P::lane(t553, 2), P::lane(t553, 0)]);
+        let t831 = P::triple([P::lane(t671, 1), P::lane(t671, 2), P::lane(t553, 1)]);
+        let t832 = P::triple([P::lane(t671, 2), P::lane(t775, 2), P::lane(t553, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t833 = mul_add(t753, t821, t560 + (t727 + t728 + t778));
+        let t834 = mul_add(t753, t822, t686 + (t729 + t730 + t779));
+        let t835 = mul_add(t753, t823, t784 + (t731 + t732 + t780));
+        // Coriolis matrix C_b, natural factorisation
+        let t836 = mul_add(t821, t824, mul_add(t793, t794, t772));
+        let t837 = mul_add(t822, t824, mul_add(t793, t795, t773));
+        let t838 = mul_add(t823, t824, mul_add(t793, t796, t774));
+        // mass matrix M_b that couples the base acceleration
+        let t839 = P::triple([P::lane(t721, 2), -P::lane(t718, 2), P::lane(t722, 2)]);
+        let t840 = P::triple([P::lane(t723, 2), P::lane(t724, 2), -P::lane(t719, 2)]);
+        let t841 = P::triple([-P::lane(t720, 2), P::lane(t725, 2), P::lane(t726, 2)]);
+        let t842 = mul_add(t753, t830, t764 + (t747 + t748 + t785));
+        let t843 = mul_add(t753, t831, t765 + (t749 + t750 + t786));
+        let t844 = mul_add(t753, t832, t768 + (t751 + t752 + t787));
+        // Coriolis matrix C_b, natural factorisation
+        let t845 = neg_mul_add(t824, t830, mul_sub(t793, t802, t781));
+        let t846 = neg_mul_add(t824, t831, mul_sub(t793, t803, t782));
+        let t847 = neg_mul_add(t824, t832, mul_sub(t793, t804, t783));
+        // mass matrix M_b that couples the base acceleration
+        let t848 = P::triple([-P::lane(t738, 2), P::lane(t739, 2), P::lane(t740, 2)]);
+        let t849 = P::triple([P::lane(t741, 2), -P::lane(t742, 2), P::lane(t743, 2)]);
+        let t850 = P::triple([P::lane(t744, 2), P::lane(t745, 2), -P::lane(t746, 2)]);
+        // Coriolis matrix C_p, natural factorisation
+        let t851 = P::mul_sub(prepared[24][0], c(0.5), t814);
+        // mass matrix of the legs
+        let t852 = P::triple([P::lane(t768, 0), P::lane(t764, 0), P::lane(t765, 0)]);
+        let t853 = P::triple([P::lane(t768, 1), P::lane(t764, 1), P::lane(t765, 1)]);
+        let t854 = P::triple([P::lane(t768, 2), P::lane(t764, 2), P::lane(t765, 2)]);
+        // velocity of the platform origin relative to the base
+        let t855 = P::triple([t54, t56, t55]);
+        // Coriolis matrix C_p, natural factorisation
+        let t856 = platform_velocity[3] * t827;
+        // mass matrix of the legs
+        let t857 = P::triple([P::lane(t764, 0), P::lane(t765, 0), P::lane(t768, 0)]);
+        let t858 = P::triple([P::lane(t764, 1), P::lane(t765, 1), P::lane(t768, 1)]);
+        let t859 = P::triple([P::lane(t764, 2), P::lane(t765, 2), P::lane(t768, 2)]);
+        let t860 = P::triple([P::lane(t553, 2), P::lane(t553, 0), P::lane(t553, 1)]);
+        let t861 = P::triple([P::lane(t671, 2), P::lane(t553, 1), P::lane(t671, 1)]);
+        let t862 = P::triple([P::lane(t775, 2), P::lane(t553, 2), P::lane(t671, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t863 = mul_sub(t793, t852, t833);
+        let t864 = mul_sub(t793, t853, t834);
+        let t865 = mul_sub(t793, t854, t835);
+        // Coriolis matrix C_b, natural factorisation
+        let t866 = mul_sub(t852, t855, t836);
+        let t867 = mul_sub(t853, t855, t837);
+        let t868 = mul_sub(t854, t855, t838);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t869 = mul_sub(t125, t188, t135 * t186);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t870 = mul_sub(t177, t235, t183 * t234);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t871 = mul_sub(t135, t184, t121 * t188);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t872 = mul_sub(t183, t233, t176 * t235);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t873 = mul_sub(t121, t186, t125 * t184);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t874 = mul_sub(t176, t234, t177 * t233);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t875 = mul_sub(t188, t268, t186 * t253);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t876 = mul_sub(t235, t325, t234 * t312);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t877 = mul_sub(t184, t253, t188 * t252);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t878 = mul_sub(t233, t312, t235 * t311);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t879 = mul_sub(t186, t252, t184 * t268);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t880 = mul_sub(t234, t311, t233 * t325);
+        // mass matrix M_p of the platform
+        let t881 = P::load(&prepared[21]);
+        // mass matrix M_b that couples the base acceleration
+        let t882 = mul_sub(t793, t860, t842);
+        let t883 = mul_sub(t793, t861, t843);
+        let t884 = mul_sub(t793, t862, t844);
+        let t885 = t857 - (t805 + t806 + t839);
+        let t886 = t858 - (t807 + t808 + t840);
+        let t887 = t859 - (t809 + t810 + t841);
+        // Coriolis matrix C_b, natural factorisation
+        let t888 = mul_add(t855, t860, t845);
+        let t889 = mul_add(t855, t861, t846);
+        let t890 = mul_add(t855, t862, t847);
+        // Coriolis matrix C_p, natural factorisation
+        let t891 = P::mul_sub(platform_velocity[3], t812, platform_velocity[4] * t813);
+        let t892 = P::mul_sub(platform_velocity[5], t813, platform_velocity[3] * t811);
+        let t893 = P::mul_sub(platform_velocity[4], t811, platform_velocity[5] * t812);
+        // mass matrix of the legs
+        let t894 = t671 + t881;
+        let t895 = t775 + P::load(&prepared[22]);
+        // mass matrix M_b that couples the base acceleration
+        let t896 = t553 - (t815 + t816 + t848);
+        let t897 = t671 - (t817 + t818 + t849);
+        let t898 = t775 - (t819 + t820 + t850);
+        // Coriolis matrix C_p, natural factorisation
+        let t899 = P::mul_sub(platform_velocity[5], t825, platform_velocity[4] * t826);
+        let t900 = P::mul_add(platform_velocity[5], t828, platform_velocity[4] * t827);
+        let t901 = P::mul_add(platform_velocity[5], t827, platform_velocity[4] * t829);
+        let t902 = P::mul_add(platform_velocity[5], t851, platform_velocity[3] * t826);
+        let t903 = P::mul_add(platform_velocity[5], t826, platform_velocity[3] * t829);
+        let t904 = P::mul_add(platform_velocity[4], t851, platform_velocity[3] * t825);
+        let t905 = P::mul_add(platform_velocity[4], t825, platform_velocity[3] * t828);
+        // mass of payload and platform-side leg ends
+        let t906 = P::load(&prepared[23]);
+        // mass matrix M_p of the platform
+        let t907 = t811 - P::lane(t764, 1);
+        mass_matrix_p[0][4] = t907;
+        mass_matrix_p[4][0] = t907;
+        let t908 = t813 - P::lane(t765, 2);
+        mass_matrix_p[1][5] = t908;
+        mass_matrix_p[5][1] = t908;
+        let t909 = t812 - P::lane(t768, 0);
+        mass_matrix_p[2][3] = t909;
+        mass_matrix_p[3][2] = t909;
+        let t910 = P::lane(t560, 1) - t825;
+        mass_matrix_p[3][4] = t910;
+        mass_matrix_p[4][3] = t910;
+        let t911 = P::lane(t560, 2) - t826;
+        mass_matrix_p[3][5] = t911;
+        mass_matrix_p[5][3] = t911;
+        let t912 = P::lane(t686, 2) - t827;
+        mass_matrix_p[4][5] = t912;
+        mass_matrix_p[5][4] = t912;
+        // mass matrix of the legs
+        let t913 = -P::lane(t764, 0);
+        mass_matrix_p[0][3] = t913;
+        mass_matrix_p[3][0] = t913;
+        let t914 = -P::lane(t765, 1);
+        mass_matrix_p[1][4] = t914;
+        mass_matrix_p[4][1] = t914;
+        let t915 = -P::lane(t768, 2);
+        mass_matrix_p[2][5] = t915;
+        mass_matrix_p[5][2] = t915;
+        // mass matrix M_p of the platform
+        let t916 = -(P::lane(t764, 2) + t812);
+        mass_matrix_p[0][5] = t916;
+        mass_matrix_p[5][0] = t916;
+        let t917 = -(P::lane(t765, 0) + t811);
+        mass_matrix_p[1][3] = t917;
+        mass_matrix_p[3][1] = t917;
+        let t918 = -(P::lane(t768, 1) + t813);
+        mass_matrix_p[2][4] = t918;
+        mass_matrix_p[4][2] = t918;
+        mass_matrix_p[0][0] = P::lane(t553 + t906, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t553, 1);
+        mass_matrix_p[0][2] = P::lane(t553, 2);
+        mass_matrix_p[1][0] = P::lane(t553, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t894, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t671, 2);
+        mass_matrix_p[2][0] = P::lane(t553, 2);
+        mass_matrix_p[2][1] = P::lane(t671, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t895, 2);
+        mass_matrix_p[3][3] = prepared[24][1] - t814 + P::lane(t560, 0);
+        mass_matrix_p[4][4] = P::lane(t686, 1) + (prepared[24][1] - t799);
+        mass_matrix_p[5][5] = P::lane(t784, 2) + (prepared[24][1] - t801);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][0] = P::lane(t677, 0);
+        coriolis_matrix_p[0][1] = P::lane(t677, 1);
+        coriolis_matrix_p[0][2] = P::lane(t677, 2);
+        coriolis_matrix_p[0][3] = -P::lane(t703, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t891 - P::lane(t703, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t703, 2) + t892);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][0] = P::lane(t678, 0);
+        coriolis_matrix_p[1][1] = P::lane(t678, 1);
+        coriolis_matrix_p[1][2] = P::lane(t678, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][3] = -(t891 + P::lane(t704, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t704, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t893 - P::lane(t704, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][0] = P::lane(t679, 0);
+        coriolis_matrix_p[2][1] = P::lane(t679, 1);
+        coriolis_matrix_p[2][2] = P::lane(t679, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[2][3] = t892 - P::lane(t705, 0);
+        coriolis_matrix_p[2][4] = -(t893 + P::lane(t705, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t705, 2);
+        coriolis_matrix_p[3][0] = P::lane(t664, 0);
+        coriolis_matrix_p[3][1] = P::lane(t664, 1);
+        coriolis_matrix_p[3][2] = P::lane(t664, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = t899 + P::lane(t696, 0);
+        coriolis_matrix_p[3][4] = P::lane(t696, 1) - t900;
+        coriolis_matrix_p[3][5] = P::lane(t696, 2) + t901;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[4][0] = P::lane(t665, 0);
+        coriolis_matrix_p[4][1] = P::lane(t665, 1);
+        coriolis_matrix_p[4][2] = P::lane(t665, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[4][3] = t902 + P::lane(t697, 0);
+        coriolis_matrix_p[4][4] = P::lane(t697, 1) - P::mul_sub(platform_velocity[5], t825, t856);
+        coriolis_matrix_p[4][5] = P::lane(t697, 2) - t903;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[5][0] = P::lane(t666, 0);
+        coriolis_matrix_p[5][1] = P::lane(t666, 1);
+        coriolis_matrix_p[5][2] = P::lane(t666, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[5][3] = P::lane(t698, 0) - t904;
+        coriolis_matrix_p[5][4] = P::lane(t698, 1) + t905;
+        coriolis_matrix_p[5][5] = P::lane(t698, 2) + P::mul_sub(platform_velocity[4], t826, t856);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t184, 0);
+        jacobian_dp[0][1] = P::lane(t186, 0);
+        jacobian_dp[0][2] = P::lane(t188, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t869, 0);
+        jacobian_dp[0][4] = P::lane(t871, 0);
+        jacobian_dp[0][5] = P::lane(t873, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t184, 1);
+        jacobian_dp[1][1] = P::lane(t186, 1);
+        jacobian_dp[1][2] = P::lane(t188, 1);
+        (
+            t184, t186, t188, t233, t234, t235, t664, t665, t666, t677, t678, t679, t863, t864,
+            t865, t866, t867, t868, t869, t870, t871, t872, t873, t874, t875, t876, t877, t878,
+            t879, t880, t882, t883, t884, t885, t886, t887, t888, t889, t890, t896, t897, t898,
+        )
+    };
+    {
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t869, 1);
+        jacobian_dp[1][4] = P::lane(t871, 1);
+        jacobian_dp[1][5] = P::lane(t873, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t184, 2);
+        jacobian_dp[2][1] = P::lane(t186, 2);
+        jacobian_dp[2][2] = P::lane(t188, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t869, 2);
+        jacobian_dp[2][4] = P::lane(t871, 2);
+        jacobian_dp[2][5] = P::lane(t873, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t233, 0);
+        jacobian_dp[3][1] = P::lane(t234, 0);
+        jacobian_dp[3][2] = P::lane(t235, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t870, 0);
+        jacobian_dp[3][4] = P::lane(t872, 0);
+        jacobian_dp[3][5] = P::lane(t874, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t233, 1);
+        jacobian_dp[4][1] = P::lane(t234, 1);
+        jacobian_dp[4][2] = P::lane(t235, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t870, 1);
+        jacobian_dp[4][4] = P::lane(t872, 1);
+        jacobian_dp[4][5] = P::lane(t874, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t233, 2);
+        jacobian_dp[5][1] = P::lane(t234, 2);
+        jacobian_dp[5][2] = P::lane(t235, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t870, 2);
+        jacobian_dp[5][4] = P::lane(t872, 2);
+        jacobian_dp[5][5] = P::lane(t874, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t896, 0);
+        mass_matrix_b[0][1] = P::lane(t896, 1);
+        mass_matrix_b[0][2] = P::lane(t896, 2);
+        mass_matrix_b[0][3] = P::lane(t882, 0);
+        mass_matrix_b[0][4] = P::lane(t882, 1);
+        mass_matrix_b[0][5] = P::lane(t882, 2);
+        mass_matrix_b[1][0] = P::lane(t897, 0);
+        mass_matrix_b[1][1] = P::lane(t897, 1);
+        mass_matrix_b[1][2] = P::lane(t897, 2);
+        mass_matrix_b[1][3] = P::lane(t883, 0);
+        mass_matrix_b[1][4] = P::lane(t883, 1);
+        mass_matrix_b[1][5] = P::lane(t883, 2);
+        mass_matrix_b[2][0] = P::lane(t898, 0);
+        mass_matrix_b[2][1] = P::lane(t898, 1);
+        mass_matrix_b[2][2] = P::lane(t898, 2);
+        mass_matrix_b[2][3] = P::lane(t884, 0);
+        mass_matrix_b[2][4] = P::lane(t884, 1);
+        mass_matrix_b[2][5] = P::lane(t884, 2);
+        mass_matrix_b[3][0] = -P::lane(t885, 0);
+        mass_matrix_b[3][1] = -P::lane(t885, 1);
+        mass_matrix_b[3][2] = -P::lane(t885, 2);
+        mass_matrix_b[3][3] = -P::lane(t863, 0);
+        mass_matrix_b[3][4] = -P::lane(t863, 1);
+        mass_matrix_b[3][5] = -P::lane(t863, 2);
+        mass_matrix_b[4][0] = -P::lane(t886, 0);
+        mass_matrix_b[4][1] = -P::lane(t886, 1);
+        mass_matrix_b[4][2] = -P::lane(t886, 2);
+        mass_matrix_b[4][3] = -P::lane(t864, 0);
+        mass_matrix_b[4][4] = -P::lane(t864, 1);
+        mass_matrix_b[4][5] = -P::lane(t864, 2);
+        mass_matrix_b[5][0] = -P::lane(t887, 0);
+        mass_matrix_b[5][1] = -P::lane(t887, 1);
+        mass_matrix_b[5][2] = -P::lane(t887, 2);
+        mass_matrix_b[5][3] = -P::lane(t865, 0);
+        mass_matrix_b[5][4] = -P::lane(t865, 1);
+        mass_matrix_b[5][5] = -P::lane(t865, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[0][0] = P::lane(t677, 0);
+        coriolis_matrix_b[0][1] = P::lane(t677, 1);
+        coriolis_matrix_b[0][2] = P::lane(t677, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = P::lane(t888, 0);
+        coriolis_matrix_b[0][4] = P::lane(t888, 1);
+        coriolis_matrix_b[0][5] = P::lane(t888, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[1][0] = P::lane(t678, 0);
+        coriolis_matrix_b[1][1] = P::lane(t678, 1);
+        coriolis_matrix_b[1][2] = P::lane(t678, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[1][3] = P::lane(t889, 0);
+        coriolis_matrix_b[1][4] = P::lane(t889, 1);
+        coriolis_matrix_b[1][5] = P::lane(t889, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[2][0] = P::lane(t679, 0);
+        coriolis_matrix_b[2][1] = P::lane(t679, 1);
+        coriolis_matrix_b[2][2] = P::lane(t679, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[2][3] = P::lane(t890, 0);
+        coriolis_matrix_b[2][4] = P::lane(t890, 1);
+        coriolis_matrix_b[2][5] = P::lane(t890, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[3][0] = P::lane(t664, 0);
+        coriolis_matrix_b[3][1] = P::lane(t664, 1);
+        coriolis_matrix_b[3][2] = P::lane(t664, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[3][3] = -P::lane(t866, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t866, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t866, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[4][0] = P::lane(t665, 0);
+        coriolis_matrix_b[4][1] = P::lane(t665, 1);
+        coriolis_matrix_b[4][2] = P::lane(t665, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[4][3] = -P::lane(t867, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t867, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t867, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[5][0] = P::lane(t666, 0);
+        coriolis_matrix_b[5][1] = P::lane(t666, 1);
+        coriolis_matrix_b[5][2] = P::lane(t666, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[5][3] = -P::lane(t868, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t868, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t868, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t184, 0);
+        jacobian_db[0][1] = P::lane(t186, 0);
+        jacobian_db[0][2] = P::lane(t188, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t875, 0);
+        jacobian_db[0][4] = P::lane(t877, 0);
+        jacobian_db[0][5] = P::lane(t879, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t184, 1);
+        jacobian_db[1][1] = P::lane(t186, 1);
+        jacobian_db[1][2] = P::lane(t188, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t875, 1);
+        jacobian_db[1][4] = P::lane(t877, 1);
+        jacobian_db[1][5] = P::lane(t879, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t184, 2);
+        jacobian_db[2][1] = P::lane(t186, 2);
+        jacobian_db[2][2] = P::lane(t188, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t875, 2);
+        jacobian_db[2][4] = P::lane(t877, 2);
+        jacobian_db[2][5] = P::lane(t879, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t233, 0);
+        jacobian_db[3][1] = P::lane(t234, 0);
+        jacobian_db[3][2] = P::lane(t235, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t876, 0);
+        jacobian_db[3][4] = P::lane(t878, 0);
+        jacobian_db[3][5] = P::lane(t880, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t233, 1);
+        jacobian_db[4][1] = P::lane(t234, 1);
+        jacobian_db[4][2] = P::lane(t235, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t876, 1);
+        jacobian_db[4][4] = P::lane(t878, 1);
+        jacobian_db[4][5] = P::lane(t880, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t233, 2);
+        jacobian_db[5][1] = P::lane(t234, 2);
+        jacobian_db[5][2] = P::lane(t235, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t876, 2);
+        jacobian_db[5][4] = P::lane(t878, 2);
+        jacobian_db[5][5] = P::lane(t880, 2);
+    }
+}
+
+/// What follows from the parameters alone, for \`inverse_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 28x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 28],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t2 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t3 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t4 = mul_add(t2, parameters.upper_mass[4], t3 * parameters.upper_mass[5]);
+    let t5 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t6 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t7 = mul_add(t5, parameters.upper_mass[0], t6 * parameters.upper_mass[1]);
+    let t8 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t9 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t10 = mul_add(t8, parameters.upper_mass[2], t9 * parameters.upper_mass[3]);
+    let t11 = mul_add(t1, parameters.payload_mass, t4 + (t7 + t10));
+    prepared[18][0] = t11 - parameters.payload_inertia[0][1];
+    let t12 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t13 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t14 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t15 = mul_add(parameters.upper_mass[4], t13, parameters.upper_mass[5] * t14);
+    let t16 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t17 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t18 = mul_add(parameters.upper_mass[0], t16, parameters.upper_mass[1] * t17);
+    let t19 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t20 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t21 = mul_add(parameters.upper_mass[2], t19, parameters.upper_mass[3] * t20);
+    let t22 = mul_add(t12, parameters.payload_mass, t15 + (t18 + t21));
+    prepared[18][1] = t22 - parameters.payload_inertia[1][2];
+    let t23 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t24 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t25 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t26 = mul_add(t24, parameters.upper_mass[4], t25 * parameters.upper_mass[5]);
+    let t27 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t28 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t29 = mul_add(t27, parameters.upper_mass[0], t28 * parameters.upper_mass[1]);
+    let t30 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t31 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t32 = mul_add(t30, parameters.upper_mass[2], t31 * parameters.upper_mass[3]);
+    let t33 = mul_add(t23, parameters.payload_mass, t26 + (t29 + t32));
+    let t34 = t33 - parameters.payload_inertia[0][2];
+    prepared[18][2] = t34;
+    prepared[18][3] = t34;
+    let t35 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t36 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t37 = t36 + parameters.payload_inertia[2][2];
+    let t38 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t39 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t40 = mul_add(t38, parameters.upper_mass[4], t39 * parameters.upper_mass[5]);
+    let t41 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t42 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t43 = mul_add(t41, parameters.upper_mass[0], t42 * parameters.upper_mass[1]);
+    let t44 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t45 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t46 = mul_add(t44, parameters.upper_mass[2], t45 * parameters.upper_mass[3]);
+    let t47 = mul_add(t37, c(0.5), t40 + (t43 + t46));
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    prepared[19][0] = mul_add(parameters.payload_mass, t35, t48);
+    let t49 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t50 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t51 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t52 = mul_add(parameters.upper_mass[4], t50, parameters.upper_mass[5] * t51);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t55 = mul_add(parameters.upper_mass[0], t53, parameters.upper_mass[1] * t54);
+    let t56 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t57 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t58 = mul_add(parameters.upper_mass[2], t56, parameters.upper_mass[3] * t57);
+    let t59 = mul_add(t37, c(0.5), t52 + (t55 + t58));
+    let t60 = t59 - parameters.payload_inertia[1][1];
+    prepared[19][1] = mul_add(parameters.payload_mass, t49, t60);
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t63 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t64 = mul_add(parameters.upper_mass[4], t62, parameters.upper_mass[5] * t63);
+    let t65 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t66 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t67 = mul_add(parameters.upper_mass[0], t65, parameters.upper_mass[1] * t66);
+    let t68 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t69 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t70 = mul_add(parameters.upper_mass[2], t68, parameters.upper_mass[3] * t69);
+    let t71 = mul_add(t37, c(0.5), t64 + (t67 + t70));
+    let t72 = t71 - parameters.payload_inertia[2][2];
+    let t73 = mul_add(parameters.payload_mass, t61, t72);
+    prepared[19][2] = t73;
+    prepared[19][3] = t73;
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t74 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t74;
+    let t75 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][1] = t75;
+    let t76 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[12][2] = t76;
+    prepared[12][3] = t76;
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t77 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[13][0] = t77;
+    let t78 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[13][1] = t78;
+    let t79 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[13][2] = t79;
+    prepared[13][3] = t79;
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t80 = mul_add(parameters.lower_com_distance[0], t74, parameters.lower_inertia[0]);
+    let t81 = t80 + parameters.upper_inertia[0];
+    prepared[16][0] = mul_add(parameters.upper_com_distance[0], t77, t81);
+    let t82 = mul_add(parameters.lower_com_distance[2], t75, parameters.lower_inertia[2]);
+    let t83 = t82 + parameters.upper_inertia[2];
+    prepared[16][1] = mul_add(parameters.upper_com_distance[2], t78, t83);
+    let t84 = mul_add(parameters.lower_com_distance[4], t76, parameters.lower_inertia[4]);
+    let t85 = t84 + parameters.upper_inertia[4];
+    let t86 = mul_add(parameters.upper_com_distance[4], t79, t85);
+    prepared[16][2] = t86;
+    prepared[16][3] = t86;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t87 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[14][0] = t87;
+    let t88 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[14][1] = t88;
+    let t89 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[14][2] = t89;
+    prepared[14][3] = t89;
+    // first moment of payload and platform-side leg ends
+    let t90 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t91 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t90);
+    let t92 = parameters.platform_point[1][0] * parameters.upper_mass[1];
+    let t93 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t92);
+    let t94 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t95 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t94);
+    let t96 = t91 + (t93 + t95);
+    prepared[20][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t96);
+    let t97 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t98 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t97);
+    let t99 = parameters.platform_point[1][1] * parameters.upper_mass[1];
+    let t100 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t99);
+    let t101 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t102 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t101);
+    let t103 = t98 + (t100 + t102);
+    prepared[20][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t103);
+    let t104 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t105 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t104);
+    let t106 = parameters.platform_point[1][2] * parameters.upper_mass[1];
+    let t107 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t106);
+    let t108 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t109 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t108);
+    let t110 = t105 + (t107 + t109);
+    let t111 = mul_add(parameters.payload_com[2], parameters.payload_mass, t110);
+    prepared[20][2] = t111;
+    prepared[20][3] = t111;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t112 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[15][0] = t112;
+    let t113 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[15][1] = t113;
+    let t114 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[15][2] = t114;
+    prepared[15][3] = t114;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t115 = mul_add(parameters.lower_com_distance[1], t87, parameters.lower_inertia[1]);
+    let t116 = t115 + parameters.upper_inertia[1];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[1], t112, t116);
+    let t117 = mul_add(parameters.lower_com_distance[3], t88, parameters.lower_inertia[3]);
+    let t118 = t117 + parameters.upper_inertia[3];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[3], t113, t118);
+    let t119 = mul_add(parameters.lower_com_distance[5], t89, parameters.lower_inertia[5]);
+    let t120 = t119 + parameters.upper_inertia[5];
+    let t121 = mul_add(parameters.upper_com_distance[5], t114, t120);
+    prepared[17][2] = t121;
+    prepared[17][3] = t121;
+    // mass of payload and platform-side leg ends
+    let t122 = parameters.upper_mass[3] + parameters.upper_mass[2];
+    let t123 = parameters.upper_mass[1] + parameters.upper_mass[0] + t122;
+    let t124 = parameters.upper_mass[5] + parameters.upper_mass[4] + t123;
+    let t125 = parameters.payload_mass + t124;
+    prepared[27][0] = t125;
+    prepared[27][1] = t125;
+    prepared[27][2] = t125;
+    prepared[27][3] = t125;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[2][0];
+    prepared[1][2] = parameters.platform_point[4][0];
+    prepared[1][3] = parameters.platform_point[4][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[2][2];
+    prepared[2][2] = parameters.platform_point[4][2];
+    prepared[2][3] = parameters.platform_point[4][2];
+    prepared[3][0] = parameters.platform_point[1][1];
+    prepared[3][1] = parameters.platform_point[3][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[1][0];
+    prepared[4][1] = parameters.platform_point[3][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[2][0];
+    prepared[7][2] = parameters.base_point[4][0];
+    prepared[7][3] = parameters.base_point[4][0];
+    prepared[8][0] = parameters.base_point[1][1];
+    prepared[8][1] = parameters.base_point[3][1];
+    prepared[8][2] = parameters.base_point[5][1];
+    prepared[8][3] = parameters.base_point[5][1];
+    prepared[9][0] = parameters.base_point[0][2];
+    prepared[9][1] = parameters.base_point[2][2];
+    prepared[9][2] = parameters.base_point[4][2];
+    prepared[9][3] = parameters.base_point[4][2];
+    prepared[10][0] = parameters.base_point[1][0];
+    prepared[10][1] = parameters.base_point[3][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[1][2];
+    prepared[11][1] = parameters.base_point[3][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[21][0] = parameters.rest_length[0];
+    prepared[21][1] = parameters.rest_length[2];
+    prepared[21][2] = parameters.rest_length[4];
+    prepared[21][3] = parameters.rest_length[4];
+    prepared[22][0] = parameters.axial_damping[0];
+    prepared[22][1] = parameters.axial_damping[2];
+    prepared[22][2] = parameters.axial_damping[4];
+    prepared[22][3] = parameters.axial_damping[4];
+    prepared[23][0] = parameters.rest_length[1];
+    prepared[23][1] = parameters.rest_length[3];
+    prepared[23][2] = parameters.rest_length[5];
+    prepared[23][3] = parameters.rest_length[5];
+    prepared[24][0] = parameters.axial_damping[1];
+    prepared[24][1] = parameters.axial_damping[3];
+    prepared[24][2] = parameters.axial_damping[5];
+    prepared[24][3] = parameters.axial_damping[5];
+    prepared[25][0] = parameters.axial_stiffness[0];
+    prepared[25][1] = parameters.axial_stiffness[2];
+    prepared[25][2] = parameters.axial_stiffness[4];
+    prepared[25][3] = parameters.axial_stiffness[4];
+    prepared[26][0] = parameters.axial_stiffness[1];
+    prepared[26][1] = parameters.axial_stiffness[3];
+    prepared[26][2] = parameters.axial_stiffness[5];
+    prepared[26][3] = parameters.axial_stiffness[5];
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 28x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 28],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 = P::load(&prepared[7]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 3, 5: platform joint from the base point
+    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t43 = P::load(&prepared[8]);
+    let t44 = P::load(&prepared[9]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
+    // legs 1, 3, 5: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+    // constant and copied elements
+    let t48 = P::load(&prepared[10]);
+    let t49 = P::load(&prepared[11]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // velocity of the platform origin relative to the base
+    let t55 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular acceleration of the platform
+    let t56 = t1 * P::splat(platform_acceleration[4]);
+    // angular velocity of the platform
+    let t57 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // angular velocity of the base
+    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t55);
+    // angular acceleration of the platform
+    let t62 = mul_add(t2, P::splat(platform_acceleration[3]), t56);
+    // angular velocity of the platform
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t57);
+    // legs 2, 4, 6: actuator length d
+    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    // platform origin seen from the base
+    let t65 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // rotation of the platform seen from the base
+    let t67 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    // angular acceleration of the platform
+    let t69 = mul_add(t5, P::splat(platform_acceleration[5]), t62);
+    // angular velocity of the platform relative to the base
+    let t70 = t60 - t63;
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t73 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // angular acceleration of the base
+    let t74 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // velocity of the platform origin relative to the base
+    let t75 = mul_add(t65, t72, neg_mul_add(t58, t71, t68));
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular acceleration of the platform
+    let t77 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    let t78 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    // rotation of the platform seen from the base
+    let t79 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t80 = mul_sub(t63, t67, t14 * t73);
+    // rotation of the platform seen from the base
+    let t81 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // angular acceleration of the base
+    let t83 = mul_add(t5, P::splat(base_acceleration[5]), t74);
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t64;
+    // rotation of the platform seen from the base
+    let t85 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t86 = mul_sub(t63, t76, t15 * t73);
+    // rotation of the platform seen from the base
+    let t87 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t88 = mul_sub(t63, t81, t17 * t73);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t89 = neg_mul_add(t32, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t91 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    // acceleration of the base origin less gravity
+    let t92 = base_acceleration[0] - parameters.gravity[0];
+    let t93 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t94 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t95 = t90 * t91;
+    // acceleration of the platform origin less gravity
+    let t96 = parameters.gravity[0] - platform_acceleration[0];
+    let t97 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = mul_add(t73, t80, mul_sub(t78, t79, t67 * t77));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t99 = neg_mul_add(t37, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t100 = mul_add(t37, P::splat(P::lane(t70, 0)), t89);
+    // angular velocity of the base
+    let t101 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t102 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t103 = mul_add(t73, t86, mul_sub(t78, t85, t76 * t77));
+    let t104 = P::triple([P::lane(t80, 2), P::lane(t80, 0), P::lane(t80, 1)]);
+    let t105 = mul_add(t73, t88, mul_sub(t78, t87, t77 * t81));
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t106 = t42 * t82;
+    // acceleration of the base origin less gravity
+    let t107 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t108 = mul_add(t101, t101, t94 * t94);
+    // acceleration of the platform origin less gravity
+    let t109 = parameters.gravity[2] - platform_acceleration[2];
+    // acceleration per platform coordinate of points of the platform
+    let t110 = neg_mul_add(t102, t104, t98);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t111 = mul_add(t33, P::splat(P::lane(t70, 2)), t99);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t112 = neg_mul_add(t39, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t33, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // angular acceleration of the base
+    let t114 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t115 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    let t116 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t117 = t41 * t82;
+    // acceleration of the base origin less gravity
+    let t118 = mul_add(t5, P::splat(t107), mul_add(t2, P::splat(t92), t93));
+    // acceleration per base coordinate of points that move with the base
+    let t119 = mul_sub(t90, t91, t114);
+    // angular acceleration of the base
+    let t120 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
+    // acceleration of the platform origin less gravity
+    let t122 = mul_add(t5, P::splat(t109), mul_add(t2, P::splat(t96), t97));
+    // acceleration per platform coordinate of points of the platform
+    let t123 = neg_mul_add(t102, t115, t103);
+    let t124 = neg_mul_add(t102, t116, t105);
+    // acceleration per base coordinate of points that move with the base
+    let t125 = t120 + t121;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t126 = neg_mul_add(t45, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t127 = mul_add(t45, P::splat(P::lane(t70, 0)), t112);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t128 = mul_add(t32, P::splat(P::lane(t70, 1)), t113);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t129 = mul_add(t41, P::splat(P::lane(t60, 2)), t100);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t130 = t46 * t84;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t131 = t47 * t82;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t132 = t9 * P::splat(P::lane(t110, 1));
+    let t133 = t21 * P::splat(P::lane(t108, 1));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t134 = mul_add(t36, P::splat(P::lane(t70, 2)), t126);
+    let t135 = neg_mul_add(t36, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t136 = mul_add(t47, P::splat(P::lane(t60, 1)), t111);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t137 = t50 * t84;
+    // legs 1, 3, 5: actuator velocity d'
+    let t138 = mul_add(t128, t131, mul_add(t111, t117, t100 * t106));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t139 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t129);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t140 = t9 * P::splat(P::lane(t110, 0));
+    let t141 = t21 * P::splat(P::lane(t119, 0));
+    let t142 = neg_mul_add(t13, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t143 = mul_add(t44, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t144 = mul_add(t39, P::splat(P::lane(t70, 1)), t135);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t145 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t136);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t146 = mul_add(t50, P::splat(P::lane(t60, 2)), t127);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t147 = mul_add(t42, P::splat(P::lane(t60, 0)), t128);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t148 = t53 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t149 = neg_mul_add(t13, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t150 = mul_add(t44, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    let t151 = t142 - mul_add(t12, P::splat(P::lane(t123, 1)), t132);
+    let t152 = mul_sub(t38, P::splat(P::lane(t125, 1)), t133) + t143;
+    let t153 = t9 * P::splat(P::lane(t110, 2));
+    let t154 = t21 * P::splat(P::lane(t125, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t155 = t18 * P::splat(P::lane(t110, 1));
+    let t156 = t43 * P::splat(P::lane(t108, 1));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t157 = mul_add(t53, P::splat(P::lane(t60, 1)), t134);
+    // legs 2, 4, 6: actuator velocity d'
+    let t158 = mul_add(t144, t148, mul_add(t134, t137, t127 * t130));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t159 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t146);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t147);
+    let t161 = t82 * neg_mul_add(t106, t138, t139);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t162 = t149 - mul_add(t12, P::splat(P::lane(t123, 0)), t140);
+    let t163 = t150 - mul_sub(t38, P::splat(P::lane(t108, 0)), t141);
+    let t164 = t151 + t152;
+    let t165 = neg_mul_add(t13, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t166 = neg_mul_add(t44, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t167 = t18 * P::splat(P::lane(t110, 0));
+    let t168 = t43 * P::splat(P::lane(t119, 0));
+    let t169 = neg_mul_add(t20, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t170 = mul_add(t49, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t171 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t157);
+    let t172 = mul_add(t46, P::splat(P::lane(t60, 0)), t144);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t173 = t82 * neg_mul_add(t117, t138, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t174 = t162 + t163;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t175 = neg_mul_add(t20, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t176 = mul_add(t49, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t177 = t165 - mul_add(t12, P::splat(P::lane(t123, 2)), t153);
+    let t178 = mul_add(t38, P::splat(P::lane(t119, 2)), t154) + t166;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t179 = t169 - mul_add(t19, P::splat(P::lane(t123, 1)), t155);
+    let t180 = mul_sub(t48, P::splat(P::lane(t125, 1)), t156) + t170;
+    let t181 = t18 * P::splat(P::lane(t110, 2));
+    let t182 = t43 * P::splat(P::lane(t125, 2));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t183 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t172);
+    let t184 = t84 * neg_mul_add(t130, t158, t159);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t185 = t82 * neg_mul_add(t131, t138, t160);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t186 = t177 + t178;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t187 = t175 - mul_add(t19, P::splat(P::lane(t123, 0)), t167);
+    let t188 = t176 - mul_sub(t48, P::splat(P::lane(t108, 0)), t168);
+    let t189 = t179 + t180;
+    let t190 = neg_mul_add(t20, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t191 = neg_mul_add(t49, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t192 = t84 * neg_mul_add(t137, t158, t171);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t193 = mul_add(t131, t186, mul_add(t117, t174, t106 * t164));
+    let t194 = mul_add(t185, t185, mul_add(t173, t173, t161 * t161));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t195 = t187 + t188;
+    let t196 = t190 - mul_add(t19, P::splat(P::lane(t123, 2)), t181);
+    let t197 = mul_add(t48, P::splat(P::lane(t119, 2)), t182) + t191;
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t198 = t84 * neg_mul_add(t148, t158, t183);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t199 = neg_mul_add(t59, t194, t193);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t200 = t196 + t197;
+    let t201 = mul_add(t198, t198, mul_add(t192, t192, t184 * t184));
+    let t202 = mul_add(t148, t200, mul_add(t137, t195, t130 * t189));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t203 = t138 * w(2.0);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t204 = neg_mul_add(t64, t201, t202);
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t205 = P::load(&prepared[12]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t206 = P::load(&prepared[13]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t207 = t82 * mul_add(t173, t203, neg_mul_add(t117, t199, t174));
+    let t208 = t82 * mul_add(t161, t203, neg_mul_add(t106, t199, t164));
+    let t209 = t82 * mul_add(t185, t203, neg_mul_add(t131, t199, t186));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t210 = t158 * w(2.0);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t211 = t82 * t205;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t212 = P::load(&prepared[14]);
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t213 = P::load(&prepared[15]);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t214 = P::load(&prepared[16]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t215 = t82 * t206;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t216 = t84 * mul_add(t192, t210, neg_mul_add(t137, t204, t195));
+    let t217 = t84 * mul_add(t184, t210, neg_mul_add(t130, t204, t189));
+    let t218 = t84 * mul_add(t198, t210, neg_mul_add(t148, t204, t200));
+    let t219 = t84 * t212;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t220 = mul_add(t162, t215, mul_add(t163, t211, t206 * t207));
+    let t221 = mul_add(t151, t215, mul_add(t152, t211, t206 * t208));
+    let t222 = mul_add(t177, t215, mul_add(t178, t211, t206 * t209));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t223 = t82 * t214;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t224 = P::load(&prepared[17]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t225 = t84 * t213;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t226 = neg_mul_add(t207, t223, t220);
+    let t227 = neg_mul_add(t208, t223, t221);
+    let t228 = neg_mul_add(t209, t223, t222);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t229 = mul_add(t187, t225, mul_add(t188, t219, t213 * t216));
+    let t230 = mul_add(t179, t225, mul_add(t180, t219, t213 * t217));
+    let t231 = mul_add(t196, t225, mul_add(t197, t219, t213 * t218));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t232 = t84 * t224;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t233 = neg_mul_add(t216, t232, t229);
+    let t234 = neg_mul_add(t217, t232, t230);
+    let t235 = neg_mul_add(t218, t232, t231);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t236 = mul_sub(t33, t228, t37 * t227);
+    let t237 = mul_sub(t37, t226, t32 * t228);
+    let t238 = mul_sub(t32, t227, t33 * t226);
+    // first moments by platform coordinate of the payload's inertia force
+    let t239 = mul_add(t123, P::splat(prepared[19][0]), t110 * P::splat(prepared[18][0]));
+    // inertia less external wrench that the actuators must balance
+    let t240 = t1 * P::splat(external_wrench[1]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t241 = mul_add(t124, P::splat(prepared[18][2]), t239);
+    // inertia less external wrench that the actuators must balance
+    let t242 = mul_add(t2, P::splat(external_wrench[0]), t240);
+    // inertia force less weight, without the actuators' own shares
+    let t243 = t226 + t233;
+    let t244 = t227 + t234;
+    let t245 = t228 + t235;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t246 = neg_mul_add(t45, t234, mul_add(t36, t235, t236));
+    let t247 = neg_mul_add(t39, t235, mul_add(t45, t233, t237));
+    let t248 = neg_mul_add(t36, t233, mul_add(t39, t234, t238));
+    // first moments by platform coordinate of the payload's inertia force
+    let t249 = mul_sub(t122, P::splat(prepared[20][0]), t241);
+    let t250 = mul_add(t123, P::splat(prepared[18][0]), t110 * P::splat(prepared[19][1]));
+    // inertia less external wrench that the actuators must balance
+    let t251 = mul_add(t5, P::splat(external_wrench[2]), t242);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t252 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t253 = P::triple([P::lane(t117, 1), P::lane(t117, 2), P::lane(t117, 0)]);
+    let t254 = P::triple([P::lane(t131, 1), P::lane(t131, 2), P::lane(t131, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t255 = P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t256 = P::triple([P::lane(t243, 0), P::lane(t244, 0), P::lane(t245, 0)]);
+    let t257 = P::triple([P::lane(t243, 1), P::lane(t244, 1), P::lane(t245, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t258 = mul_add(t124, P::splat(prepared[18][1]), t250);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t259 = P::triple([P::lane(t117, 2), P::lane(t117, 0), P::lane(t117, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t260 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t261 = mul_sub(t254, t259, t252 * t253);
+    let t262 = mul_sub(t252, t260, t254 * t255);
+    // inertia force less weight, without the actuators' own shares
+    let t263 = P::triple([P::lane(t243, 2), P::lane(t244, 2), P::lane(t245, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t264 = P::triple([P::lane(t246, 0), P::lane(t247, 0), P::lane(t248, 0)]);
+    let t265 = P::triple([P::lane(t246, 1), P::lane(t247, 1), P::lane(t248, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t266 = mul_sub(t122, P::splat(prepared[20][1]), t258);
+    let t267 = mul_add(t123, P::splat(prepared[18][2]), t110 * P::splat(prepared[18][1]));
+    // inertia less external wrench that the actuators must balance
+    let t268 = P::triple([P::lane(t251, 2), P::lane(t251, 0), P::lane(t251, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t269 = P::triple([P::lane(t249, 2), P::lane(t249, 0), P::lane(t249, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t270 = mul_add(P::splat(parameters.payload_com[0]), t268, t269);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t271 = P::triple([P::lane(t246, 2), P::lane(t247, 2), P::lane(t248, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t272 = neg_mul_add(t122, P::splat(prepared[27][0]), t256 + t257 + t263);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t273 = t264 + t265 + t271;
+    // force along the actuator that balances the remaining wrench
+    let t274 = t130 * P::splat(P::lane(t261, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t275 = mul_add(t124, P::splat(prepared[19][2]), t267);
+    // force along the actuator that balances the remaining wrench
+    let t276 = mul_sub(t253, t255, t259 * t260);
+    let t277 = mul_add(t137, P::splat(P::lane(t262, 0)), t274);
+    let t278 = P::lane(t117, 1) * P::lane(t262, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t279 = mul_add(t123, P::splat(prepared[20][0]), t272);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t280 = mul_sub(t37, t117, t32 * t131);
+    let t281 = mul_sub(t32, t106, t33 * t117);
+    // first moments by platform coordinate of the payload's inertia force
+    let t282 = mul_sub(t122, P::splat(prepared[20][2]), t275);
+    let t283 = P::triple([P::lane(t266, 2), P::lane(t266, 0), P::lane(t266, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t284 = mul_add(P::splat(parameters.payload_com[1]), t268, t283);
+    let t285 = P::triple([P::lane(t270, 2), P::lane(t270, 0), P::lane(t270, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t286 = P::mul_add(P::lane(t117, 0), P::lane(t262, 0), t278);
+    // inertia less external wrench that the actuators must balance
+    let t287 = mul_add(t85, t285, neg_mul_add(t76, t270, t273));
+    // force along the actuator that balances the remaining wrench
+    let t288 = mul_add(t148, P::splat(P::lane(t276, 0)), t277);
+    let t289 = t130 * P::splat(P::lane(t261, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t290 = mul_add(t110, P::splat(prepared[20][1]), t279);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t291 = mul_sub(t45, t137, t39 * t148);
+    let t292 = mul_sub(t39, t130, t36 * t137);
+    // force along the actuator that balances the remaining wrench
+    let t293 = mul_add(t137, P::splat(P::lane(t262, 1)), t289);
+    let t294 = P::mul_add(P::lane(t117, 2), P::lane(t262, 2), t286);
+    let t295 = t130 * P::splat(P::lane(t261, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t296 = mul_add(t124, P::splat(prepared[20][2]), t290);
+    // first moments by platform coordinate of the payload's inertia force
+    let t297 = P::triple([P::lane(t282, 2), P::lane(t282, 0), P::lane(t282, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t298 = mul_add(P::splat(parameters.payload_com[2]), t268, t297);
+    let t299 = P::triple([P::lane(t284, 2), P::lane(t284, 0), P::lane(t284, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t300 = mul_add(t148, P::splat(P::lane(t276, 1)), t293);
+    let t301 = mul_add(t137, P::splat(P::lane(t262, 2)), t295);
+    let t302 = mul_sub(t291, P::splat(t294), t288 * P::splat(P::lane(t280, 0)));
+    let t303 = mul_sub(t292, P::splat(t294), t288 * P::splat(P::lane(t281, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t304 = neg_mul_add(t79, t299, mul_sub(t67, t284, t287));
+    let t305 = t296 - t251;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t306 = mul_sub(t33, t131, t37 * t106);
+    // force along the actuator that balances the remaining wrench
+    let t307 = mul_add(t148, P::splat(P::lane(t276, 2)), t301);
+    let t308 = neg_mul_add(P::splat(P::lane(t280, 1)), t300, t302);
+    let t309 = neg_mul_add(P::splat(P::lane(t281, 1)), t300, t303);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t310 = mul_sub(t36, t148, t45 * t130);
+    // inertia less external wrench that the actuators must balance
+    let t311 = P::triple([P::lane(t298, 2), P::lane(t298, 0), P::lane(t298, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t312 = neg_mul_add(P::splat(P::lane(t280, 2)), t307, t308);
+    let t313 = neg_mul_add(P::splat(P::lane(t281, 2)), t307, t309);
+    // inertia less external wrench that the actuators must balance
+    let t314 = neg_mul_add(t87, t311, mul_add(t81, t298, t304));
+    // force along the actuator that balances the remaining wrench
+    let t315 = t261 * P::splat(P::lane(t305, 1));
+    let t316 = mul_add(t262, P::splat(P::lane(t305, 0)), t315);
+    let t317 = mul_sub(P::splat(t294), t310, t288 * P::splat(P::lane(t306, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t318 = mul_add(t2, P::splat(external_wrench[3]), t314);
+    // force along the actuator that balances the remaining wrench
+    let t319 = mul_add(t276, P::splat(P::lane(t305, 2)), t316);
+    let t320 = neg_mul_add(t300, P::splat(P::lane(t306, 1)), t317);
+    let t321 = P::triple([P::lane(t312, 2), P::lane(t312, 0), P::lane(t312, 1)]);
+    let t322 = P::triple([P::lane(t312, 1), P::lane(t312, 2), P::lane(t312, 0)]);
+    let t323 = P::triple([P::lane(t313, 1), P::lane(t313, 2), P::lane(t313, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t324 = mul_add(t1, P::splat(external_wrench[4]), t318);
+    // force along the actuator that balances the remaining wrench
+    let t325 = P::triple([P::lane(t313, 2), P::lane(t313, 0), P::lane(t313, 1)]);
+    let t326 = neg_mul_add(t307, P::splat(P::lane(t306, 2)), t320);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t327 = P::triple([P::lane(t306, 0), P::lane(t280, 0), P::lane(t281, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t328 = mul_sub(t322, t325, t321 * t323);
+    // inertia less external wrench that the actuators must balance
+    let t329 = mul_add(t5, P::splat(external_wrench[5]), t324);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t330 = P::triple([P::lane(t306, 1), P::lane(t280, 1), P::lane(t281, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t331 = mul_add(P::splat(t294), t329, P::splat(P::lane(t319, 0)) * t327);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t332 = P::triple([P::lane(t306, 2), P::lane(t280, 2), P::lane(t281, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t333 = P::triple([P::lane(t326, 1), P::lane(t326, 2), P::lane(t326, 0)]);
+    let t334 = P::triple([P::lane(t326, 2), P::lane(t326, 0), P::lane(t326, 1)]);
+    let t335 = P::lane(t326, 1) * P::lane(t328, 1);
+    let t336 = mul_add(P::splat(P::lane(t319, 1)), t330, t331);
+    let t337 = P::mul_add(P::lane(t326, 0), P::lane(t328, 0), t335);
+    let t338 = mul_add(P::splat(P::lane(t319, 2)), t332, t336);
+    let t339 = mul_sub(t321, t333, t322 * t334);
+    let t340 = P::triple([P::lane(t288, 0), P::lane(t300, 0), P::lane(t307, 0)]);
+    let t341 = c(1.0) / P::mul_add(P::lane(t326, 2), P::lane(t328, 2), t337);
+    let t342 = P::triple([P::lane(t288, 1), P::lane(t300, 1), P::lane(t307, 1)]);
+    let t343 = mul_sub(t323, t334, t325 * t333) * P::splat(P::lane(t338, 1));
+    let t344 = P::triple([P::lane(t288, 2), P::lane(t300, 2), P::lane(t307, 2)]);
+    let t345 = mul_add(t328, P::splat(P::lane(t338, 0)), t343);
+    let t346 = P::splat(t341) * mul_add(t339, P::splat(P::lane(t338, 2)), t345);
+    // inertia less external wrench that the actuators must balance
+    let t347 = -P::lane(t329, 0);
+    let t348 = -P::lane(t329, 1);
+    let t349 = -P::lane(t329, 2);
+    // force along the actuator that balances the remaining wrench
+    let t350 = -t346;
+    let t351 = mul_add(t340, P::splat(P::lane(t346, 0)), t319);
+    // constant and copied elements
+    let t352 = P::load(&prepared[21]);
+    let t353 = P::load(&prepared[22]);
+    // force along the actuator that balances the remaining wrench
+    let t354 = mul_add(t342, P::splat(P::lane(t346, 1)), t351);
+    // constant and copied elements
+    let t355 = P::load(&prepared[23]);
+    let t356 = P::load(&prepared[24]);
+    // force along the actuator that balances the remaining wrench
+    let t357 = mul_add(t344, P::splat(P::lane(t346, 2)), t354);
+    // constant and copied elements
+    let t358 = P::load(&prepared[25]);
+    let t359 = P::load(&prepared[26]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t360 = mul_add(t131, t177, mul_add(t117, t162, t106 * t151));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t361 = mul_add(t148, t196, mul_add(t137, t187, t130 * t179));
+    // force along the actuator that balances the remaining wrench
+    let t362 = P::splat(c(1.0) / t294) * t357;
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t363 = mul_add(t59 - t352, t358, t138 * t353);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t364 = mul_add(t64 - t355, t359, t158 * t356);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t365 = mul_add(t131, t178, mul_add(t117, t163, t106 * t152));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t366 = mul_add(t148, t197, mul_add(t137, t188, t130 * t180));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t350, t362],
+        &[
+            [t137, t117],
+            [t130, t106],
+            [t148, t131],
+            [t310, t306],
+            [t291, t280],
+            [t292, t281],
+        ],
+        &[P::lane(t305, 0), P::lane(t305, 1), P::lane(t305, 2), t347, t348, t349],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t367 = mul_add(t131, t209, mul_add(t117, t207, t106 * t208));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t368 = mul_add(t148, t218, mul_add(t137, t216, t130 * t217));
+    // legs 1, 3, 5: actuator forces F
+    let t369 = mul_add(t211, t365, mul_sub(t215, t360, t363));
+    // legs 2, 4, 6: actuator forces F
+    let t370 = mul_add(t219, t366, mul_sub(t225, t361, t364));
+    // force along the actuator that balances the remaining wrench
+    let t371 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t372 = t371 - neg_mul_add(t223, t367, t369);
+    // force along the actuator that balances the remaining wrench
+    let t373 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t374 = t373 - neg_mul_add(t232, t368, t370);
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t372, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t374, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t372, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t374, 1);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t372, 2);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t374, 2);
+}
+
+/// What follows from the parameters alone, for \`control\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 34x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_control<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 34],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t2 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t3 = t2 + parameters.payload_inertia[2][2];
+    let t4 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t5 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t6 = mul_add(t4, parameters.upper_mass[4], t5 * parameters.upper_mass[5]);
+    let t7 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t8 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t9 = mul_add(t7, parameters.upper_mass[0], t8 * parameters.upper_mass[1]);
+    let t10 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t11 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t12 = mul_add(t10, parameters.upper_mass[2], t11 * parameters.upper_mass[3]);
+    let t13 = mul_add(t3, c(0.5), t6 + (t9 + t12));
+    let t14 = t13 - parameters.payload_inertia[0][0];
+    let t15 = mul_add(parameters.payload_mass, t1, t14);
+    prepared[25][0] = t15;
+    let t16 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t17 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t18 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t19 = mul_add(parameters.upper_mass[4], t17, parameters.upper_mass[5] * t18);
+    let t20 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t21 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t22 = mul_add(parameters.upper_mass[0], t20, parameters.upper_mass[1] * t21);
+    let t23 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t24 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t25 = mul_add(parameters.upper_mass[2], t23, parameters.upper_mass[3] * t24);
+    let t26 = mul_add(t3, c(0.5), t19 + (t22 + t25));
+    let t27 = t26 - parameters.payload_inertia[1][1];
+    let t28 = mul_add(parameters.payload_mass, t16, t27);
+    prepared[25][1] = t28;
+    let t29 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t30 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t31 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t32 = mul_add(parameters.upper_mass[4], t30, parameters.upper_mass[5] * t31);
+    let t33 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t34 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t35 = mul_add(parameters.upper_mass[0], t33, parameters.upper_mass[1] * t34);
+    let t36 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t37 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t38 = mul_add(parameters.upper_mass[2], t36, parameters.upper_mass[3] * t37);
+    let t39 = mul_add(t3, c(0.5), t32 + (t35 + t38));
+    let t40 = t39 - parameters.payload_inertia[2][2];
+    let t41 = mul_add(parameters.payload_mass, t29, t40);
+    prepared[25][2] = t41;
+    prepared[25][3] = t41;
+    let t42 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t43 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t44 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t45 = mul_add(t43, parameters.upper_mass[4], t44 * parameters.upper_mass[5]);
+    let t46 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t47 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t48 = mul_add(t46, parameters.upper_mass[0], t47 * parameters.upper_mass[1]);
+    let t49 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t50 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t51 = mul_add(t49, parameters.upper_mass[2], t50 * parameters.upper_mass[3]);
+    let t52 = mul_add(t42, parameters.payload_mass, t45 + (t48 + t51));
+    prepared[24][0] = t52 - parameters.payload_inertia[0][1];
+    let t53 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t54 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t55 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t56 = mul_add(parameters.upper_mass[4], t54, parameters.upper_mass[5] * t55);
+    let t57 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t58 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t59 = mul_add(parameters.upper_mass[0], t57, parameters.upper_mass[1] * t58);
+    let t60 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t61 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t62 = mul_add(parameters.upper_mass[2], t60, parameters.upper_mass[3] * t61);
+    let t63 = mul_add(t53, parameters.payload_mass, t56 + (t59 + t62));
+    prepared[24][1] = t63 - parameters.payload_inertia[1][2];
+    let t64 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t65 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t66 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t67 = mul_add(t65, parameters.upper_mass[4], t66 * parameters.upper_mass[5]);
+    let t68 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t69 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t70 = mul_add(t68, parameters.upper_mass[0], t69 * parameters.upper_mass[1]);
+    let t71 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t72 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t73 = mul_add(t71, parameters.upper_mass[2], t72 * parameters.upper_mass[3]);
+    let t74 = mul_add(t64, parameters.payload_mass, t67 + (t70 + t73));
+    let t75 = t74 - parameters.payload_inertia[0][2];
+    prepared[24][2] = t75;
+    prepared[24][3] = t75;
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t76 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t76;
+    let t77 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][1] = t77;
+    let t78 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[12][2] = t78;
+    prepared[12][3] = t78;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t79 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[13][0] = t79;
+    let t80 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[13][1] = t80;
+    let t81 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[13][2] = t81;
+    prepared[13][3] = t81;
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t82 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[14][2] = t82;
+    prepared[14][3] = t82;
+    let t83 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[14][0] = t83;
+    let t84 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[14][1] = t84;
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t85 = mul_add(parameters.lower_com_distance[0], t76, parameters.lower_inertia[0]);
+    let t86 = t85 + parameters.upper_inertia[0];
+    prepared[16][0] = mul_add(parameters.upper_com_distance[0], t83, t86);
+    let t87 = mul_add(parameters.lower_com_distance[2], t77, parameters.lower_inertia[2]);
+    let t88 = t87 + parameters.upper_inertia[2];
+    prepared[16][1] = mul_add(parameters.upper_com_distance[2], t84, t88);
+    let t89 = mul_add(parameters.lower_com_distance[4], t78, parameters.lower_inertia[4]);
+    let t90 = t89 + parameters.upper_inertia[4];
+    let t91 = mul_add(parameters.upper_com_distance[4], t82, t90);
+    prepared[16][2] = t91;
+    prepared[16][3] = t91;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t92 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[15][2] = t92;
+    prepared[15][3] = t92;
+    let t93 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[15][0] = t93;
+    let t94 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[15][1] = t94;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t95 = mul_add(parameters.lower_com_distance[1], t79, parameters.lower_inertia[1]);
+    let t96 = t95 + parameters.upper_inertia[1];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[1], t93, t96);
+    let t97 = mul_add(parameters.lower_com_distance[3], t80, parameters.lower_inertia[3]);
+    let t98 = t97 + parameters.upper_inertia[3];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[3], t94, t98);
+    let t99 = mul_add(parameters.lower_com_distance[5], t81, parameters.lower_inertia[5]);
+    let t100 = t99 + parameters.upper_inertia[5];
+    let t101 = mul_add(parameters.upper_com_distance[5], t92, t100);
+    prepared[17][2] = t101;
+    prepared[17][3] = t101;
+    // first moment of payload and platform-side leg ends
+    let t102 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t103 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t102);
+    let t104 = parameters.platform_point[1][0] * parameters.upper_mass[1];
+    let t105 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t104);
+    let t106 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t107 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t106);
+    let t108 = t103 + (t105 + t107);
+    prepared[26][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t110 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t109);
+    let t111 = parameters.platform_point[1][1] * parameters.upper_mass[1];
+    let t112 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t111);
+    let t113 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t114 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t113);
+    let t115 = t110 + (t112 + t114);
+    prepared[26][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t115);
+    let t116 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t117 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t116);
+    let t118 = parameters.platform_point[1][2] * parameters.upper_mass[1];
+    let t119 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t118);
+    let t120 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t121 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t120);
+    let t122 = t117 + (t119 + t121);
+    let t123 = mul_add(parameters.payload_com[2], parameters.payload_mass, t122);
+    prepared[26][2] = t123;
+    prepared[26][3] = t123;
+    // mass of payload and platform-side leg ends
+    let t124 = parameters.upper_mass[3] + parameters.upper_mass[2];
+    let t125 = parameters.upper_mass[1] + parameters.upper_mass[0] + t124;
+    let t126 = parameters.upper_mass[5] + parameters.upper_mass[4] + t125;
+    let t127 = parameters.payload_mass + t126;
+    prepared[27][1] = t127;
+    prepared[28][0] = t127;
+    prepared[29][2] = t127;
+    prepared[29][3] = t127;
+    prepared[33][0] = t127;
+    prepared[33][1] = t127;
+    prepared[33][2] = t127;
+    prepared[33][3] = t127;
+    // mass matrix M_p of the platform
+    let t128 = t41 + (t15 + t28);
+    prepared[30][0] = t128;
+    prepared[31][1] = t128;
+    prepared[32][2] = t128;
+    prepared[32][3] = t128;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[1][1];
+    prepared[1][1] = parameters.platform_point[3][1];
+    prepared[1][2] = parameters.platform_point[5][1];
+    prepared[1][3] = parameters.platform_point[5][1];
+    prepared[2][0] = parameters.platform_point[0][0];
+    prepared[2][1] = parameters.platform_point[2][0];
+    prepared[2][2] = parameters.platform_point[4][0];
+    prepared[2][3] = parameters.platform_point[4][0];
+    prepared[3][0] = parameters.platform_point[1][0];
+    prepared[3][1] = parameters.platform_point[3][0];
+    prepared[3][2] = parameters.platform_point[5][0];
+    prepared[3][3] = parameters.platform_point[5][0];
+    prepared[4][0] = parameters.platform_point[0][2];
+    prepared[4][1] = parameters.platform_point[2][2];
+    prepared[4][2] = parameters.platform_point[4][2];
+    prepared[4][3] = parameters.platform_point[4][2];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[1][1];
+    prepared[7][1] = parameters.base_point[3][1];
+    prepared[7][2] = parameters.base_point[5][1];
+    prepared[7][3] = parameters.base_point[5][1];
+    prepared[8][0] = parameters.base_point[0][0];
+    prepared[8][1] = parameters.base_point[2][0];
+    prepared[8][2] = parameters.base_point[4][0];
+    prepared[8][3] = parameters.base_point[4][0];
+    prepared[9][0] = parameters.base_point[1][0];
+    prepared[9][1] = parameters.base_point[3][0];
+    prepared[9][2] = parameters.base_point[5][0];
+    prepared[9][3] = parameters.base_point[5][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[2][2];
+    prepared[10][2] = parameters.base_point[4][2];
+    prepared[10][3] = parameters.base_point[4][2];
+    prepared[11][0] = parameters.base_point[1][2];
+    prepared[11][1] = parameters.base_point[3][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[18][0] = parameters.rest_length[1];
+    prepared[18][1] = parameters.rest_length[3];
+    prepared[18][2] = parameters.rest_length[5];
+    prepared[18][3] = parameters.rest_length[5];
+    prepared[19][0] = parameters.axial_damping[1];
+    prepared[19][1] = parameters.axial_damping[3];
+    prepared[19][2] = parameters.axial_damping[5];
+    prepared[19][3] = parameters.axial_damping[5];
+    prepared[20][0] = parameters.rest_length[0];
+    prepared[20][1] = parameters.rest_length[2];
+    prepared[20][2] = parameters.rest_length[4];
+    prepared[20][3] = parameters.rest_length[4];
+    prepared[21][0] = parameters.axial_damping[0];
+    prepared[21][1] = parameters.axial_damping[2];
+    prepared[21][2] = parameters.axial_damping[4];
+    prepared[21][3] = parameters.axial_damping[4];
+    prepared[22][0] = parameters.axial_stiffness[1];
+    prepared[22][1] = parameters.axial_stiffness[3];
+    prepared[22][2] = parameters.axial_stiffness[5];
+    prepared[22][3] = parameters.axial_stiffness[5];
+    prepared[23][0] = parameters.axial_stiffness[0];
+    prepared[23][1] = parameters.axial_stiffness[2];
+    prepared[23][2] = parameters.axial_stiffness[4];
+    prepared[23][3] = parameters.axial_stiffness[4];
+    prepared[27][0] = c(0.0);
+    prepared[27][2] = c(0.0);
+    prepared[27][3] = c(0.0);
+    prepared[28][1] = c(0.0);
+    prepared[28][2] = c(0.0);
+    prepared[28][3] = c(0.0);
+    prepared[29][0] = c(0.0);
+    prepared[29][1] = c(0.0);
+    prepared[30][1] = c(0.0);
+    prepared[30][2] = c(0.0);
+    prepared[30][3] = c(0.0);
+    prepared[31][0] = c(0.0);
+    prepared[31][2] = c(0.0);
+    prepared[31][3] = c(0.0);
+    prepared[32][0] = c(0.0);
+    prepared[32][1] = c(0.0);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 34x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 34],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t24 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = mul_add(t18, P::splat(P::lane(t15, 1)), t26);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t24);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t27);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // constant and copied elements
+    let t39 = P::load(&prepared[7]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t40 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // legs 2, 4, 6: platform joint from the base point
+    let t43 = P::splat(P::lane(t22, 1)) + t35 - t39;
+    // constant and copied elements
+    let t44 = P::load(&prepared[8]);
+    let t45 = P::load(&prepared[9]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t44;
+    // legs 2, 4, 6: platform joint from the base point
+    let t47 = t37 + P::splat(P::lane(t22, 0)) - t45;
+    // constant and copied elements
+    let t48 = P::load(&prepared[10]);
+    let t49 = P::load(&prepared[11]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t50 = t40 + P::splat(P::lane(t22, 2)) - t48;
+    // legs 2, 4, 6: platform joint from the base point
+    let t51 = t41 + P::splat(P::lane(t22, 2)) - t49;
+    // angular velocity of the base
+    let t52 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t53 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t52);
+    // angular velocity of the platform
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t53);
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // platform origin seen from the base
+    let t57 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    let t58 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t50, t50, mul_add(t46, t46, t42 * t42)));
+    // legs 2, 4, 6: actuator length d
+    let t60 = sqrt(mul_add(t51, t51, mul_add(t47, t47, t43 * t43)));
+    // angular velocity of the base
+    let t61 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t62 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // angular velocity of the platform
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    // angular acceleration of the base
+    let t64 = t1 * P::splat(base_acceleration[4]);
+    // rotation of the platform seen from the base
+    let t65 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t66 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t62);
+    // angular velocity of the platform relative to the base
+    let t69 = t61 - t63;
+    // angular acceleration of the base
+    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t64);
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t72 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t73 = P::triple([P::lane(t61, 0), P::lane(t61, 2), P::lane(t61, 0)]);
+    // angular velocity of the platform
+    let t74 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // velocity of the platform origin relative to the base
+    let t75 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
+    // angular acceleration of the base
+    let t76 = mul_add(t5, P::splat(base_acceleration[5]), t70);
+    // acceleration per platform coordinate of points of the platform
+    let t77 = mul_sub(t63, t65, t14 * t74);
+    let t78 = mul_sub(t63, t66, t15 * t74);
+    let t79 = mul_sub(t63, t67, t17 * t74);
+    // angular velocity of the base
+    let t80 = P::triple([P::lane(t61, 1), P::lane(t61, 1), P::lane(t61, 2)]);
+    // acceleration of the base origin less gravity
+    let t81 = base_acceleration[0] - parameters.gravity[0];
+    let t82 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t83 = w(1.0) / t59;
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t60;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t85 = neg_mul_add(t36, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t86 = neg_mul_add(t37, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // angular velocity of the base
+    let t87 = P::triple([P::lane(t61, 2), P::lane(t61, 2), P::lane(t61, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t88 = t73 * t80;
+    // acceleration of the platform origin less gravity
+    let t89 = t1 * P::splat(parameters.gravity[1]);
+    // angular velocity of the platform
+    let t90 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t91 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t92 = neg_mul_add(t40, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t93 = neg_mul_add(t41, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t94 = mul_add(t40, P::splat(P::lane(t69, 0)), t85);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t95 = mul_add(t41, P::splat(P::lane(t69, 0)), t86);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t61, 1), P::lane(t61, 0), P::lane(t61, 1)]);
+    // acceleration of the platform origin less gravity
+    let t97 = mul_add(t2, P::splat(parameters.gravity[0]), t89);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    let t99 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t100 = t42 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t101 = t43 * t84;
+    // acceleration of the base origin less gravity
+    let t102 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t103 = mul_add(t96, t96, t87 * t87);
+    // acceleration per platform coordinate of points of the platform
+    let t104 = mul_sub(t74, t77, t90 * t91);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t105 = mul_add(t34, P::splat(P::lane(t69, 2)), t92);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t106 = mul_add(t35, P::splat(P::lane(t69, 2)), t93);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t107 = neg_mul_add(t34, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t35, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // angular acceleration of the base
+    let t109 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t110 = t46 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t111 = t47 * t84;
+    // acceleration of the base origin less gravity
+    let t112 = mul_add(t5, P::splat(t102), mul_add(t2, P::splat(t81), t82));
+    // acceleration per base coordinate of points that move with the base
+    let t113 = mul_sub(t73, t80, t109);
+    // angular acceleration of the base
+    let t114 = P::triple([P::lane(t76, 1), P::lane(t76, 2), P::lane(t76, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t115 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // acceleration of the platform origin less gravity
+    let t116 = mul_add(t5, P::splat(parameters.gravity[2]), t97);
+    // acceleration per platform coordinate of points of the platform
+    let t117 = mul_sub(t74, t78, t90 * t98);
+    let t118 = mul_sub(t74, t79, t90 * t99);
+    // acceleration per base coordinate of points that move with the base
+    let t119 = t114 + t115;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t36, P::splat(P::lane(t69, 1)), t107);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t121 = mul_add(t37, P::splat(P::lane(t69, 1)), t108);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t122 = mul_add(t46, P::splat(P::lane(t61, 2)), t94);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t123 = mul_add(t47, P::splat(P::lane(t61, 2)), t95);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t124 = t50 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t125 = t51 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t126 = t9 * P::splat(P::lane(t104, 1));
+    let t127 = t21 * P::splat(P::lane(t103, 1));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t128 = t12 * P::splat(P::lane(t104, 1));
+    let t129 = t39 * P::splat(P::lane(t103, 1));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t130 = mul_add(t50, P::splat(P::lane(t61, 1)), t105);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t131 = mul_add(t51, P::splat(P::lane(t61, 1)), t106);
+    // legs 1, 3, 5: actuator velocity d'
+    let t132 = mul_add(t120, t124, mul_add(t105, t110, t94 * t100));
+    // legs 2, 4, 6: actuator velocity d'
+    let t133 = mul_add(t121, t125, mul_add(t106, t111, t95 * t101));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t134 = neg_mul_add(t50, P::splat(P::lane(t61, 0)), t122);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t135 = neg_mul_add(t51, P::splat(P::lane(t61, 0)), t123);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t136 = t9 * P::splat(P::lane(t104, 0));
+    let t137 = t21 * P::splat(P::lane(t113, 0));
+    let t138 = neg_mul_add(t19, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t139 = mul_add(t48, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t140 = t12 * P::splat(P::lane(t104, 0));
+    let t141 = t39 * P::splat(P::lane(t113, 0));
+    let t142 = neg_mul_add(t20, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t143 = mul_add(t49, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t144 = neg_mul_add(t42, P::splat(P::lane(t61, 2)), t130);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t145 = neg_mul_add(t43, P::splat(P::lane(t61, 2)), t131);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t146 = mul_add(t42, P::splat(P::lane(t61, 0)), t120);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t147 = mul_add(t43, P::splat(P::lane(t61, 0)), t121);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t148 = neg_mul_add(t19, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t149 = mul_add(t48, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t150 = neg_mul_add(t20, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t151 = mul_add(t49, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t152 = t138 - mul_add(t13, P::splat(P::lane(t117, 1)), t126);
+    let t153 = mul_sub(t44, P::splat(P::lane(t119, 1)), t127) + t139;
+    let t154 = t9 * P::splat(P::lane(t104, 2));
+    let t155 = t21 * P::splat(P::lane(t119, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t156 = t142 - mul_add(t18, P::splat(P::lane(t117, 1)), t128);
+    let t157 = mul_sub(t45, P::splat(P::lane(t119, 1)), t129) + t143;
+    let t158 = t12 * P::splat(P::lane(t104, 2));
+    let t159 = t39 * P::splat(P::lane(t119, 2));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t46, P::splat(P::lane(t61, 1)), t146);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t161 = neg_mul_add(t47, P::splat(P::lane(t61, 1)), t147);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t162 = t83 * neg_mul_add(t100, t132, t134);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t163 = t84 * neg_mul_add(t101, t133, t135);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t164 = t148 - mul_add(t13, P::splat(P::lane(t117, 0)), t136);
+    let t165 = t149 - mul_sub(t44, P::splat(P::lane(t103, 0)), t137);
+    let t166 = t152 + t153;
+    let t167 = neg_mul_add(t19, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t168 = neg_mul_add(t48, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t169 = t150 - mul_add(t18, P::splat(P::lane(t117, 0)), t140);
+    let t170 = t151 - mul_sub(t45, P::splat(P::lane(t103, 0)), t141);
+    let t171 = t156 + t157;
+    let t172 = neg_mul_add(t20, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t173 = neg_mul_add(t49, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t174 = t83 * neg_mul_add(t110, t132, t144);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t175 = t84 * neg_mul_add(t111, t133, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t176 = t164 + t165;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t177 = t169 + t170;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t178 = t167 - mul_add(t13, P::splat(P::lane(t117, 2)), t154);
+    let t179 = mul_add(t44, P::splat(P::lane(t113, 2)), t155) + t168;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t180 = t172 - mul_add(t18, P::splat(P::lane(t117, 2)), t158);
+    let t181 = mul_add(t45, P::splat(P::lane(t113, 2)), t159) + t173;
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t182 = t83 * neg_mul_add(t124, t132, t160);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t183 = t84 * neg_mul_add(t125, t133, t161);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t184 = t178 + t179;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t185 = t180 + t181;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t186 = mul_add(t124, t184, mul_add(t110, t176, t100 * t166));
+    let t187 = mul_add(t182, t182, mul_add(t174, t174, t162 * t162));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t188 = mul_add(t125, t185, mul_add(t111, t177, t101 * t171));
+    let t189 = mul_add(t183, t183, mul_add(t175, t175, t163 * t163));
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t190 = P::load(&prepared[12]);
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t191 = P::load(&prepared[13]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t192 = neg_mul_add(t59, t187, t186);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t193 = neg_mul_add(t60, t189, t188);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t194 = P::load(&prepared[14]);
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t195 = P::load(&prepared[15]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t196 = t132 * w(2.0);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t197 = t133 * w(2.0);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t198 = P::load(&prepared[16]);
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t199 = P::load(&prepared[17]);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t200 = P::splat(base_rotation[0][1]) * t100;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t201 = P::splat(base_rotation[0][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t202 = P::splat(base_rotation[2][1]) * t100;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t203 = t83 * t83;
+    let t204 = t83 * t194;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t205 = t84 * t84;
+    let t206 = t84 * t195;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t207 = P::splat(base_rotation[1][1]) * t100;
+    let t208 = mul_add(P::splat(base_rotation[0][0]), t110, t200);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t209 = mul_add(P::splat(base_rotation[0][0]), t111, t201);
+    let t210 = P::splat(base_rotation[1][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t211 = mul_add(P::splat(base_rotation[2][0]), t110, t202);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t212 = P::splat(base_rotation[2][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t213 = mul_add(P::splat(base_rotation[1][0]), t110, t207);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t214 = t198 * t203;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t215 = t199 * t205;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t216 = t83 * mul_add(t174, t196, neg_mul_add(t110, t192, t176));
+    let t217 = t83 * mul_add(t162, t196, neg_mul_add(t100, t192, t166));
+    let t218 = t83 * mul_add(t182, t196, neg_mul_add(t124, t192, t184));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t219 = t84 * mul_add(t175, t197, neg_mul_add(t111, t193, t177));
+    let t220 = t84 * mul_add(t163, t197, neg_mul_add(t101, t193, t171));
+    let t221 = t84 * mul_add(t183, t197, neg_mul_add(t125, t193, t185));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t222 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t223 = mul_add(P::splat(base_rotation[1][0]), t111, t210);
+    let t224 = mul_add(P::splat(base_rotation[2][0]), t111, t212);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t225 = P::splat(platform_rotation[0][1]) * t9;
+    let t226 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t227 = mul_add(P::splat(base_rotation[0][2]), t124, t208);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t228 = mul_add(P::splat(base_rotation[0][2]), t125, t209);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t229 = mul_add(P::splat(base_rotation[2][2]), t124, t211);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t230 = neg_mul_add(w(2.0), mul_sub(t198, t203, t204), t214);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t231 = neg_mul_add(w(2.0), mul_sub(t199, t205, t206), t215);
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t232 = t83 * t190;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t233 = t84 * t191;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t234 = mul_add(P::splat(base_rotation[1][2]), t124, t213);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t235 = mul_add(P::splat(platform_rotation[2][0]), t13, t222);
+    let t236 = mul_add(P::splat(platform_rotation[0][0]), t13, t225);
+    let t237 = mul_add(P::splat(platform_rotation[1][0]), t13, t226);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = mul_add(P::splat(base_rotation[1][2]), t125, t223);
+    let t239 = mul_add(P::splat(base_rotation[2][2]), t125, t224);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t240 = neg_mul_add(w(2.0), t204, t214);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t241 = neg_mul_add(w(2.0), t206, t215);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t242 = t227 * t230;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t243 = t228 * t231;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t244 = t230 * t234;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t245 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t246 = mul_add(P::splat(platform_rotation[2][2]), t19, t235);
+    let t247 = mul_add(P::splat(platform_rotation[0][2]), t19, t236);
+    let t248 = mul_add(P::splat(platform_rotation[1][2]), t19, t237);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t249 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t250 = mul_add(t227, t242, t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t251 = mul_add(t228, t243, t241);
+    let t252 = t238 * t243;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t253 = t229 * t242;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t254 = t239 * t243;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t255 = mul_add(t229, t229 * t230, t240);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t256 = mul_add(t164, t204, mul_add(t165, t232, t194 * t216));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t257 = mul_add(t169, t206, mul_add(t170, t233, t195 * t219));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t258 = mul_add(t152, t204, mul_add(t153, t232, t194 * t217));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t259 = mul_add(t156, t206, mul_add(t157, t233, t195 * t220));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t260 = mul_add(t178, t204, mul_add(t179, t232, t194 * t218));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t261 = mul_add(t180, t206, mul_add(t181, t233, t195 * t221));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t262 = t229 * t244;
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t263 = t83 * t198;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t264 = t84 * t199;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t265 = mul_add(P::splat(platform_rotation[0][0]), t18, t245);
+    let t266 = P::splat(platform_rotation[2][1]) * t12;
+    // constant and copied elements
+    let t267 = P::load(&prepared[18]);
+    let t268 = P::load(&prepared[19]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t269 = mul_add(P::splat(platform_rotation[1][0]), t18, t249);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t270 = mul_add(t234, t244, t240);
+    // mass matrix of the legs
+    let t271 = mul_add(t234, t242, t252);
+    let t272 = mul_add(t229, t242, t254);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t273 = t231 * t238;
+    // mass matrix of the legs
+    let t274 = t250 + t251;
+    let t275 = t247 * t262;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t276 = neg_mul_add(t216, t263, t256);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t277 = neg_mul_add(t219, t264, t257);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t278 = neg_mul_add(t217, t263, t258);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t279 = neg_mul_add(t220, t264, t259);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t280 = neg_mul_add(t218, t263, t260);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t281 = neg_mul_add(t221, t264, t261);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t282 = mul_add(P::splat(platform_rotation[2][0]), t18, t266);
+    // constant and copied elements
+    let t283 = P::load(&prepared[20]);
+    let t284 = P::load(&prepared[21]);
+    let t285 = P::load(&prepared[22]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t286 = mul_add(P::splat(platform_rotation[0][2]), t20, t265);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t287 = t234 * t242;
+    // mass matrix of the legs
+    let t288 = mul_sub(t247, t255, t246 * t253);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t289 = mul_add(t125, t180, mul_add(t111, t169, t101 * t156));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t290 = mul_add(t60 - t267, t285, t133 * t268);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t291 = mul_add(P::splat(platform_rotation[1][2]), t20, t269);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t292 = mul_add(t238, t273, t241);
+    let t293 = t239 * t273;
+    // mass matrix of the legs
+    let t294 = mul_sub(t248, t253, t275);
+    let t295 = mul_sub(t246, t262, t248 * t255);
+    // constant and copied elements
+    let t296 = P::load(&prepared[23]);
+    // inertia force less weight, without the actuators' own shares
+    let t297 = t276 + t277;
+    let t298 = t278 + t279;
+    let t299 = t280 + t281;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t300 = mul_add(P::splat(platform_rotation[2][2]), t20, t282);
+    // mass matrix of the legs
+    let t301 = mul_sub(t246, t287, t275);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t302 = mul_add(t124, t178, mul_add(t110, t164, t100 * t152));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t303 = mul_add(t59 - t283, t296, t132 * t284);
+    // mass matrix of the legs
+    let t304 = t286 * t293;
+    let t305 = mul_sub(t246, t270, t248 * t262);
+    let t306 = mul_sub(t248, t287, t247 * t270);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t307 = mul_add(t125, t181, mul_add(t111, t170, t101 * t157));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t308 = mul_add(t239, t231 * t239, t241);
+    // mass matrix of the legs
+    let t309 = mul_add(t229, t244, t293);
+    let t310 = P::triple([P::lane(t274, 0), P::lane(t271, 0), P::lane(t272, 0)]);
+    let t311 = P::triple([P::lane(t274, 1), P::lane(t271, 1), P::lane(t272, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t312 = mul_sub(t34, t280, t40 * t278);
+    let t313 = mul_sub(t40, t276, t36 * t280);
+    let t314 = mul_sub(t36, t278, t34 * t276);
+    // mass matrix of the legs
+    let t315 = t270 + t292;
+    let t316 = mul_sub(t252, t300, t304);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t317 = mul_add(t124, t179, mul_add(t110, t165, t100 * t153));
+    // mass matrix of the legs
+    let t318 = mul_sub(t292, t300, t291 * t293);
+    let t319 = mul_sub(t252, t291, t286 * t292);
+    let t320 = P::triple([P::lane(t274, 2), P::lane(t271, 2), P::lane(t272, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t321 = mul_add(t125, t221, mul_add(t111, t219, t101 * t220));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t322 = mul_add(t233, t307, mul_sub(t206, t289, t290));
+    // mass matrix of the legs
+    let t323 = mul_sub(t247, t253, t246 * t250);
+    let t324 = mul_sub(t248, t250, t247 * t287);
+    let t325 = t310 + t311 + t320;
+    // inertia force less weight, without the actuators' own shares
+    let t326 = P::triple([P::lane(t297, 0), P::lane(t298, 0), P::lane(t299, 0)]);
+    let t327 = P::triple([P::lane(t297, 1), P::lane(t298, 1), P::lane(t299, 1)]);
+    // mass matrix of the legs
+    let t328 = mul_add(t300, t316, mul_add(t246, t301, t248 * t288));
+    let t329 = mul_sub(t286, t308, t254 * t300);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t330 = mul_add(t124, t218, mul_add(t110, t216, t100 * t217));
+    // first moments by platform coordinate of the payload's inertia force
+    let t331 = mul_add(t117, P::splat(prepared[25][0]), t104 * P::splat(prepared[24][0]));
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t332 = mul_add(t232, t317, mul_sub(t204, t302, t303));
+    // mass matrix of the legs
+    let t333 = mul_sub(t254, t291, t304);
+    let t334 = mul_add(t300, t318, mul_sub(t246, t305, t248 * t295));
+    let t335 = mul_sub(t293, t300, t291 * t308);
+    let t336 = mul_add(t300, t319, mul_sub(t246, t306, t248 * t294));
+    // inertia force less weight, without the actuators' own shares
+    let t337 = P::triple([P::lane(t297, 2), P::lane(t298, 2), P::lane(t299, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t338 = neg_mul_add(t264, t321, t322);
+    // mass matrix of the legs
+    let t339 = P::lane(t309, 1) + P::lane(t309, 0);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t340 = neg_mul_add(t41, t279, mul_add(t35, t281, t312));
+    let t341 = neg_mul_add(t37, t281, mul_add(t41, t277, t313));
+    let t342 = neg_mul_add(t35, t277, mul_add(t37, t279, t314));
+    // mass matrix of the legs
+    let t343 = t255 + t308;
+    let t344 = mul_add(t252, t300, mul_sub(t246, t287, t248 * t253));
+    let t345 = mul_add(t291, t329, t328);
+    // first moments by platform coordinate of the payload's inertia force
+    let t346 = mul_add(t118, P::splat(prepared[24][2]), t331);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t347 = neg_mul_add(t263, t330, t332);
+    // mass matrix of the legs
+    let t348 = neg_mul_add(t291, t335, t334);
+    let t349 = neg_mul_add(t291, t333, t336);
+    let t350 = P::triple([P::lane(t325, 1), P::lane(t315, 2), P::lane(t309, 2)]);
+    let t351 = P::triple([c(0.0), P::lane(t315, 1) + P::lane(t315, 0), t339]);
+    // inertia force less weight, without the actuators' own shares
+    let t352 = neg_mul_add(t116, P::splat(prepared[33][0]), t326 + t327 + t337);
+    // mass matrix of the legs
+    let t353 = mul_sub(t251, t291, t252 * t286);
+    let t354 = t350 + t351;
+    // mass matrix M_p of the platform
+    let t355 = t305 + t318;
+    // mass matrix of the legs
+    let t356 = mul_sub(t254, t286, t251 * t300);
+    // mass matrix M_p of the platform
+    let t357 = t295 + t335;
+    // mass matrix of the legs
+    let t358 = neg_mul_add(t254, t291, t344);
+    // first moments by platform coordinate of the payload's inertia force
+    let t359 = mul_sub(t116, P::splat(prepared[26][0]), t346);
+    let t360 = mul_add(t117, P::splat(prepared[24][0]), t104 * P::splat(prepared[25][1]));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t361 = mul_add(t227, t347, t228 * t338);
+    let t362 = mul_add(t234, t347, t238 * t338);
+    let t363 = mul_add(t229, t347, t239 * t338);
+    // mass matrix M_p of the platform
+    let t364 = platform_rotation[2][1] * prepared[26][1];
+    // mass matrix of the legs
+    let t365 = mul_add(t286, t329, mul_sub(t247, t288, t246 * t323));
+    let t366 = mul_add(t286, t333, mul_sub(t247, t294, t246 * t324));
+    // mass matrix M_p of the platform
+    let t367 = P::load(&prepared[27]);
+    // inertia force less weight, without the actuators' own shares
+    let t368 = mul_add(t117, P::splat(prepared[26][0]), t352);
+    // mass matrix M_p of the platform
+    let t369 = platform_rotation[1][1] * prepared[26][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t370 = P::triple([P::lane(t229, 2), P::lane(t229, 0), P::lane(t229, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t371 = P::triple([P::lane(t227, 1), P::lane(t227, 2), P::lane(t227, 0)]);
+    // mass matrix M_p of the platform
+    let t372 = t324 + t353;
+    let t373 = t288 + t329;
+    // mass matrix of the legs
+    let t374 = t354 + t367;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t375 = P::triple([P::lane(t340, 0), P::lane(t341, 0), P::lane(t342, 0)]);
+    let t376 = P::triple([P::lane(t340, 1), P::lane(t341, 1), P::lane(t342, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t377 = P::triple([P::lane(t229, 1), P::lane(t229, 2), P::lane(t229, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t378 = P::triple([P::lane(t234, 2), P::lane(t234, 0), P::lane(t234, 1)]);
+    // mass matrix M_p of the platform
+    let t379 = t323 + t356;
+    let t380 = t306 + t319;
+    let t381 = P::mul_add(platform_rotation[2][0], prepared[26][0], t364);
+    // mass of payload and platform-side leg ends
+    let t382 = P::load(&prepared[28]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t383 = mul_add(t118, P::splat(prepared[24][1]), t360);
+    // mass matrix M_p of the platform
+    let t384 = P::mul_add(platform_rotation[1][0], prepared[26][0], t369);
+    let t385 = platform_rotation[0][1] * prepared[26][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t386 = P::triple([P::lane(t227, 2), P::lane(t227, 0), P::lane(t227, 1)]);
+    // mass matrix of the legs
+    let t387 = t294 + t333;
+    let t388 = neg_mul_add(t300, t356, t365);
+    let t389 = neg_mul_add(t300, t353, t366);
+    let t390 = P::triple([P::lane(t325, 2), P::lane(t354, 2), P::lane(t343, 2)]);
+    let t391 = P::triple([c(0.0), c(0.0), P::lane(t343, 1) + P::lane(t343, 0)]);
+    let t392 = P::triple([P::lane(t348, 0), -P::lane(t345, 0), P::lane(t349, 0)]);
+    let t393 = P::triple([P::lane(t348, 1), -P::lane(t345, 1), P::lane(t349, 1)]);
+    // mass matrix M_p of the platform
+    let t394 = t325 + t382;
+    // inertia force less weight, without the actuators' own shares
+    let t395 = mul_add(t104, P::splat(prepared[26][1]), t368);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t396 = P::triple([P::lane(t340, 2), P::lane(t341, 2), P::lane(t342, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t397 = t374 * P::splat(platform_acceleration[1]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t398 = P::triple([P::lane(t234, 1), P::lane(t234, 2), P::lane(t234, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t399 = mul_sub(t377, t386, t370 * t371);
+    // mass matrix of the legs
+    let t400 = t301 + t316;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t401 = t375 + t376 + t396;
+    // force along the actuator that balances the remaining wrench
+    let t402 = mul_sub(t370, t398, t377 * t378);
+    // mass matrix M_p of the platform
+    let t403 = P::mul_add(platform_rotation[2][2], prepared[26][2], t381);
+    let t404 = P::mul_add(platform_rotation[0][0], prepared[26][0], t385);
+    // constant and copied elements
+    let t405 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t406 = P::triple([P::lane(t348, 2), -P::lane(t345, 2), P::lane(t349, 2)]);
+    let t407 = P::load(&prepared[29]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t408 = mul_sub(t116, P::splat(prepared[26][1]), t383);
+    let t409 = mul_add(t117, P::splat(prepared[24][2]), t104 * P::splat(prepared[24][1]));
+    let t410 = P::triple([P::lane(t359, 2), P::lane(t359, 0), P::lane(t359, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t411 = P::triple([P::lane(t361, 0), P::lane(t362, 0), P::lane(t363, 0)]);
+    let t412 = P::triple([P::lane(t361, 1), P::lane(t362, 1), P::lane(t363, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t413 = mul_add(t394, P::splat(platform_acceleration[0]), t397);
+    // mass matrix M_p of the platform
+    let t414 = P::mul_add(platform_rotation[1][2], prepared[26][2], t384);
+    // inertia less external wrench that the actuators must balance
+    let t415 = P::splat(parameters.payload_com[1]) * t405;
+    // mass matrix of the legs
+    let t416 = mul_add(t291, t353, mul_sub(t248, t324, t247 * t306));
+    let t417 = t392 + t393 + t406;
+    let t418 = t390 + t391 + t407;
+    // inertia force less weight, without the actuators' own shares
+    let t419 = mul_add(t118, P::splat(prepared[26][2]), t395);
+    // constant and copied elements
+    let t420 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t421 = P::triple([P::lane(t361, 2), P::lane(t362, 2), P::lane(t363, 2)]);
+    // mass matrix M_p of the platform
+    let t422 = P::mul_add(platform_rotation[0][2], prepared[26][2], t404);
+    // inertia less external wrench that the actuators must balance
+    let t423 = mul_add(P::splat(parameters.payload_com[0]), t420, t415);
+    // force along the actuator that balances the remaining wrench
+    let t424 = t238 * P::splat(P::lane(t399, 0));
+    // mass matrix M_p of the platform
+    let t425 = platform_rotation[0][1] * prepared[24][0];
+    // first moments by platform coordinate of the payload's inertia force
+    let t426 = mul_add(t118, P::splat(prepared[25][2]), t409);
+    // rotation of the platform seen from the base
+    let t427 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t428 = P::triple([P::lane(t359, 1), P::lane(t359, 2), P::lane(t359, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t429 = mul_add(t418, P::splat(platform_acceleration[2]), t413);
+    // mass matrix M_p of the platform
+    let t430 = t414 - (P::lane(t357, 2) + (P::lane(t357, 1) + P::lane(t357, 0)));
+    mass_matrix_p[2][3] = t430;
+    mass_matrix_p[3][2] = t430;
+    // force along the actuator that balances the remaining wrench
+    let t431 = mul_sub(t371, t378, t386 * t398);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t432 = mul_sub(t239, t291, t238 * t300);
+    let t433 = mul_sub(t228, t300, t239 * t286);
+    let t434 = mul_sub(t238, t286, t228 * t291);
+    // mass matrix of the legs
+    let t435 = neg_mul_add(t286, t319, t416);
+    let t436 = P::lane(t389, 1) + P::lane(t389, 0);
+    // moment of the inertia force about the platform origin
+    let t437 = mul_add(t427, t428, neg_mul_add(t66, t410, t401));
+    // constant and copied elements
+    let t438 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t439 = -(P::lane(t358, 2) + (P::lane(t358, 1) + P::lane(t358, 0)));
+    mass_matrix_p[0][3] = t439;
+    mass_matrix_p[3][0] = t439;
+    // mass matrix M_p of the platform
+    let t440 = -(t403 + (P::lane(t355, 2) + (P::lane(t355, 1) + P::lane(t355, 0))));
+    mass_matrix_p[1][3] = t440;
+    mass_matrix_p[3][1] = t440;
+    // constant and copied elements
+    let t441 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t442 = mul_add(t228, P::splat(P::lane(t402, 0)), t424);
+    let t443 = P::lane(t227, 1) * P::lane(t402, 1);
+    // mass matrix M_p of the platform
+    let t444 = P::mul_add(platform_rotation[0][0], prepared[25][0], t425);
+    // constant and copied elements
+    let t445 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t446 = neg_mul_add(P::splat(P::lane(t419, 0)), t438, t411 + t412 + t421);
+    // mass matrix of the legs
+    let t447 = P::triple([t439, t440, t430]);
+    // inertia less external wrench that the actuators must balance
+    let t448 = mul_add(P::splat(parameters.payload_com[2]), t441, t423);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t449 = mul_sub(t229, t248, t234 * t246);
+    let t450 = mul_sub(t227, t246, t229 * t247);
+    let t451 = mul_sub(t234, t247, t227 * t248);
+    // mass matrix of the legs
+    let t452 = P::triple([P::lane(t417, 1), P::lane(t388, 2), P::lane(t389, 2)]);
+    let t453 = P::triple([c(0.0), P::lane(t388, 1) + P::lane(t388, 0), t436]);
+    // mass matrix M_p of the platform
+    let t454 = platform_rotation[0][1] * prepared[25][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t455 = mul_sub(t116, P::splat(prepared[26][2]), t426);
+    let t456 = P::triple([P::lane(t408, 2), P::lane(t408, 0), P::lane(t408, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t457 = mul_add(t447, P::splat(platform_acceleration[3]), t429);
+    // mass matrix M_p of the platform
+    let t458 = t403 - (P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0)));
+    mass_matrix_p[0][4] = t458;
+    mass_matrix_p[4][0] = t458;
+    // mass matrix of the legs
+    let t459 = P::lane(t400, 2) + (P::lane(t400, 1) + P::lane(t400, 0));
+    mass_matrix_p[1][4] = t459;
+    mass_matrix_p[4][1] = t459;
+    // mass matrix M_p of the platform
+    let t460 = t422 - (P::lane(t380, 2) + (P::lane(t380, 1) + P::lane(t380, 0)));
+    mass_matrix_p[1][5] = t460;
+    mass_matrix_p[5][1] = t460;
+    // mass matrix of the legs
+    let t461 = t452 + t453;
+    // force along the actuator that balances the remaining wrench
+    let t462 = P::mul_add(P::lane(t227, 0), P::lane(t402, 0), t443);
+    // constant and copied elements
+    let t463 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t464 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t465 = -(t422 + (P::lane(t373, 2) + (P::lane(t373, 1) + P::lane(t373, 0))));
+    mass_matrix_p[2][4] = t465;
+    mass_matrix_p[4][2] = t465;
+    let t466 = -(t414 + (P::lane(t372, 2) + (P::lane(t372, 1) + P::lane(t372, 0))));
+    mass_matrix_p[0][5] = t466;
+    mass_matrix_p[5][0] = t466;
+    // mass matrix of the legs
+    let t467 = -(P::lane(t387, 2) + (P::lane(t387, 1) + P::lane(t387, 0)));
+    mass_matrix_p[2][5] = t467;
+    mass_matrix_p[5][2] = t467;
+    // force along the actuator that balances the remaining wrench
+    let t468 = mul_add(t239, P::splat(P::lane(t431, 0)), t442);
+    let t469 = t238 * P::splat(P::lane(t399, 1));
+    // mass matrix M_p of the platform
+    let t470 = P::mul_add(platform_rotation[0][2], prepared[24][2], t444);
+    // constant and copied elements
+    let t471 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t472 = P::mul_add(platform_rotation[0][0], prepared[24][0], t454);
+    let t473 = mul_add(P::splat(prepared[25][0]), t463, P::splat(prepared[24][0]) * t445);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t474 = mul_sub(P::splat(P::lane(t419, 1)), t464, t446);
+    // mass matrix M_p of the platform
+    let t475 = P::triple([t458, t459, t465]);
+    let t476 = P::triple([t466, t460, t467]);
+    // constant and copied elements
+    let t477 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t478 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t479 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t480 = t417 + P::load(&prepared[30]);
+    let t481 = platform_rotation[0][1] * prepared[24][1];
+    // rotation of the platform seen from the base
+    let t482 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t483 = P::triple([P::lane(t408, 1), P::lane(t408, 2), P::lane(t408, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t484 = mul_add(t347, t449, t338 * t432);
+    let t485 = mul_add(t347, t450, t338 * t433);
+    let t486 = mul_add(t347, t451, t338 * t434);
+    // inertia less external wrench that the actuators must balance
+    let t487 = mul_sub(t476, P::splat(platform_acceleration[5]), t477);
+    // moment of the inertia force about the platform origin
+    let t488 = neg_mul_add(t482, t483, mul_sub(t65, t456, t437));
+    // force along the actuator that balances the remaining wrench
+    let t489 = mul_add(t228, P::splat(P::lane(t402, 1)), t469);
+    let t490 = P::mul_add(P::lane(t227, 2), P::lane(t402, 2), t462);
+    // constant and copied elements
+    let t491 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t492 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t493 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t494 = t238 * P::splat(P::lane(t399, 2));
+    // mass matrix M_p of the platform
+    let t495 = neg_mul_add(P::splat(t470), t491, t480);
+    let t496 = P::mul_add(platform_rotation[0][2], prepared[24][1], t472);
+    let t497 = P::mul_add(platform_rotation[0][0], prepared[24][2], t481);
+    let t498 = P::load(&prepared[31]);
+    let t499 = mul_add(P::splat(prepared[24][0]), t463, P::splat(prepared[25][1]) * t445);
+    let t500 = mul_add(P::splat(prepared[25][0]), t491, P::splat(prepared[24][0]) * t471);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t501 = mul_add(P::splat(P::lane(t419, 2)), t493, t474);
+    // constant and copied elements
+    let t502 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t503 = P::triple([P::lane(t448, 1), P::lane(t448, 2), P::lane(t448, 0)]);
+    // mass matrix of the legs
+    let t504 = P::triple([P::lane(t417, 2), P::lane(t461, 2), P::lane(t435, 2)]);
+    let t505 = P::triple([c(0.0), c(0.0), P::lane(t435, 1) + P::lane(t435, 0)]);
+    let t506 = t461 + t498;
+    // first moments by platform coordinate of the payload's inertia force
+    let t507 = P::triple([P::lane(t455, 2), P::lane(t455, 0), P::lane(t455, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t508 = mul_add(t475, P::splat(platform_acceleration[4]), t457) + t487;
+    // mass matrix M_p of the platform
+    let t509 = P::triple([t440, t459, t460]);
+    // inertia less external wrench that the actuators must balance
+    let t510 = neg_mul_add(t502, t503, mul_add(t448, t479, t478));
+    let t511 = P::splat(platform_acceleration[1]) * t509;
+    // force along the actuator that balances the remaining wrench
+    let t512 = mul_add(t239, P::splat(P::lane(t431, 1)), t489);
+    let t513 = mul_add(t228, P::splat(P::lane(t402, 2)), t494);
+    let t514 = mul_sub(t433, P::splat(t490), t468 * P::splat(P::lane(t450, 0)));
+    let t515 = mul_sub(t434, P::splat(t490), t468 * P::splat(P::lane(t451, 0)));
+    // constant and copied elements
+    let t516 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t517 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t518 = neg_mul_add(t471, P::splat(t496), t495);
+    let t519 = P::mul_add(platform_rotation[0][2], prepared[25][2], t497);
+    let t520 = neg_mul_add(mul_add(P::splat(prepared[24][2]), t492, t473), t517, t506);
+    let t521 = mul_add(P::splat(prepared[24][2]), t463, P::splat(prepared[24][1]) * t445);
+    let t522 = P::load(&prepared[32]);
+    let t523 = mul_add(P::splat(prepared[24][2]), t516, t500);
+    let t524 = mul_add(P::splat(prepared[24][0]), t491, P::splat(prepared[25][1]) * t471);
+    // inertia less external wrench that the actuators must balance
+    let t525 = t501 + t508;
+    // mass matrix of the legs
+    let t526 = P::triple([t439, t458, t466]);
+    // mass matrix M_p of the platform
+    let t527 = P::triple([t430, t465, t467]);
+    // mass matrix of the legs
+    let t528 = t504 + t505 + t522;
+    // rotation of the platform seen from the base
+    let t529 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t530 = P::triple([P::lane(t455, 1), P::lane(t455, 2), P::lane(t455, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t531 = P::triple([P::lane(t484, 0), P::lane(t485, 0), P::lane(t486, 0)]);
+    let t532 = P::triple([P::lane(t484, 1), P::lane(t485, 1), P::lane(t486, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t533 = neg_mul_add(P::splat(platform_acceleration[2]), t527, t510);
+    // moment of the inertia force about the platform origin
+    let t534 = neg_mul_add(t529, t530, mul_add(t67, t507, t488));
+    // force along the actuator that balances the remaining wrench
+    let t535 = mul_add(t239, P::splat(P::lane(t431, 2)), t513);
+    let t536 = neg_mul_add(P::splat(P::lane(t450, 1)), t512, t514);
+    let t537 = neg_mul_add(P::splat(P::lane(t451, 1)), t512, t515);
+    // constant and copied elements
+    let t538 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t539 = neg_mul_add(t516, P::splat(t519), t518);
+    let t540 = neg_mul_add(mul_add(P::splat(prepared[24][1]), t492, t499), t538, t520);
+    let t541 = neg_mul_add(P::splat(platform_rotation[2][0]), t523, t528);
+    let t542 = mul_add(P::splat(prepared[24][1]), t516, t524);
+    let t543 = mul_add(P::splat(prepared[24][2]), t491, P::splat(prepared[24][1]) * t471);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t544 = P::triple([P::lane(t484, 2), P::lane(t485, 2), P::lane(t486, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t545 = t533 - mul_add(P::splat(platform_acceleration[0]), t526, t511);
+    // force along the actuator that balances the remaining wrench
+    let t546 = neg_mul_add(P::splat(P::lane(t450, 2)), t535, t536);
+    let t547 = neg_mul_add(P::splat(P::lane(t451, 2)), t535, t537);
+    // constant and copied elements
+    let t548 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t549 = t399 * P::splat(P::lane(t525, 1));
+    // mass matrix M_p of the platform
+    let t550 = neg_mul_add(mul_add(P::splat(prepared[25][2]), t492, t521), t548, t540);
+    let t551 = neg_mul_add(P::splat(platform_rotation[2][1]), t542, t541);
+    let t552 = mul_add(P::splat(prepared[25][2]), t516, t543);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t553 = mul_add(t438, P::splat(P::lane(t534, 0)), t531 + t532 + t544);
+    // inertia less external wrench that the actuators must balance
+    let t554 = neg_mul_add(P::splat(platform_acceleration[3]), t539, t545);
+    // force along the actuator that balances the remaining wrench
+    let t555 = mul_sub(t432, P::splat(t490), t468 * P::splat(P::lane(t449, 0)));
+    let t556 = mul_add(t402, P::splat(P::lane(t525, 0)), t549);
+    // mass matrix M_p of the platform
+    let t557 = neg_mul_add(P::splat(platform_rotation[2][2]), t552, t551);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t558 = mul_add(t464, P::splat(P::lane(t534, 1)), t553);
+    // inertia less external wrench that the actuators must balance
+    let t559 = neg_mul_add(P::splat(platform_acceleration[4]), t550, t554);
+    // force along the actuator that balances the remaining wrench
+    let t560 = mul_add(t431, P::splat(P::lane(t525, 2)), t556);
+    let t561 = neg_mul_add(t512, P::splat(P::lane(t449, 1)), t555);
+    let t562 = P::triple([P::lane(t546, 2), P::lane(t546, 0), P::lane(t546, 1)]);
+    let t563 = P::triple([P::lane(t547, 1), P::lane(t547, 2), P::lane(t547, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t564 = mul_add(t493, P::splat(P::lane(t534, 2)), t558);
+    // force along the actuator that balances the remaining wrench
+    let t565 = P::triple([P::lane(t546, 1), P::lane(t546, 2), P::lane(t546, 0)]);
+    let t566 = P::triple([P::lane(t547, 2), P::lane(t547, 0), P::lane(t547, 1)]);
+    let t567 = neg_mul_add(t535, P::splat(P::lane(t449, 2)), t561);
+    let t568 = mul_sub(t565, t566, t562 * t563);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t569 = P::triple([P::lane(t449, 0), P::lane(t450, 0), P::lane(t451, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t570 = t564 + neg_mul_add(P::splat(platform_acceleration[5]), t557, t559);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t571 = P::triple([P::lane(t449, 1), P::lane(t450, 1), P::lane(t451, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t572 = mul_add(P::splat(t490), t570, P::splat(P::lane(t560, 0)) * t569);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t573 = P::triple([P::lane(t449, 2), P::lane(t450, 2), P::lane(t451, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t574 = P::lane(t567, 1) * P::lane(t568, 1);
+    let t575 = P::triple([P::lane(t567, 1), P::lane(t567, 2), P::lane(t567, 0)]);
+    let t576 = mul_add(P::splat(P::lane(t560, 1)), t571, t572);
+    let t577 = P::triple([P::lane(t567, 2), P::lane(t567, 0), P::lane(t567, 1)]);
+    let t578 = P::mul_add(P::lane(t567, 0), P::lane(t568, 0), t574);
+    let t579 = mul_add(P::splat(P::lane(t560, 2)), t573, t576);
+    let t580 = P::triple([P::lane(t468, 0), P::lane(t512, 0), P::lane(t535, 0)]);
+    let t581 = mul_sub(t562, t575, t565 * t577);
+    let t582 = c(1.0) / P::mul_add(P::lane(t567, 2), P::lane(t568, 2), t578);
+    let t583 = P::triple([P::lane(t468, 1), P::lane(t512, 1), P::lane(t535, 1)]);
+    let t584 = mul_sub(t563, t577, t566 * t575) * P::splat(P::lane(t579, 1));
+    let t585 = mul_add(t568, P::splat(P::lane(t579, 0)), t584);
+    let t586 = P::triple([P::lane(t468, 2), P::lane(t512, 2), P::lane(t535, 2)]);
+    let t587 = P::splat(t582) * mul_add(t581, P::splat(P::lane(t579, 2)), t585);
+    // inertia less external wrench that the actuators must balance
+    let t588 = -P::lane(t570, 0);
+    let t589 = -P::lane(t570, 1);
+    // force along the actuator that balances the remaining wrench
+    let t590 = -t587;
+    let t591 = mul_add(t580, P::splat(P::lane(t587, 0)), t560);
+    // inertia less external wrench that the actuators must balance
+    let t592 = -P::lane(t570, 2);
+    // force along the actuator that balances the remaining wrench
+    let t593 = mul_add(t583, P::splat(P::lane(t587, 1)), t591);
+    let t594 = mul_add(t586, P::splat(P::lane(t587, 2)), t593);
+    let t595 = P::splat(c(1.0) / t490) * t594;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t590, t595],
+        &[
+            [t228, t227],
+            [t238, t234],
+            [t239, t229],
+            [t432, t449],
+            [t433, t450],
+            [t434, t451],
+        ],
+        &[P::lane(t525, 0), P::lane(t525, 1), P::lane(t525, 2), t588, t589, t592],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t59, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t60, 0);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t59, 1);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t60, 1);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t59, 2);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t60, 2);
+    // leg 1: actuator velocity d'
+    actuator_velocity[0] = P::lane(t132, 0);
+    // leg 2: actuator velocity d'
+    actuator_velocity[1] = P::lane(t133, 0);
+    // leg 3: actuator velocity d'
+    actuator_velocity[2] = P::lane(t132, 1);
+    // leg 4: actuator velocity d'
+    actuator_velocity[3] = P::lane(t133, 1);
+    // leg 5: actuator velocity d'
+    actuator_velocity[4] = P::lane(t132, 2);
+    // leg 6: actuator velocity d'
+    actuator_velocity[5] = P::lane(t133, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t227, 0);
+    jacobian_dp[0][1] = P::lane(t234, 0);
+    jacobian_dp[0][2] = P::lane(t229, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t449, 0);
+    jacobian_dp[0][4] = P::lane(t450, 0);
+    jacobian_dp[0][5] = P::lane(t451, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t228, 0);
+    jacobian_dp[1][1] = P::lane(t238, 0);
+    jacobian_dp[1][2] = P::lane(t239, 0);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t432, 0);
+    jacobian_dp[1][4] = P::lane(t433, 0);
+    jacobian_dp[1][5] = P::lane(t434, 0);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t227, 1);
+    jacobian_dp[2][1] = P::lane(t234, 1);
+    jacobian_dp[2][2] = P::lane(t229, 1);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t449, 1);
+    jacobian_dp[2][4] = P::lane(t450, 1);
+    jacobian_dp[2][5] = P::lane(t451, 1);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t228, 1);
+    jacobian_dp[3][1] = P::lane(t238, 1);
+    jacobian_dp[3][2] = P::lane(t239, 1);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t432, 1);
+    jacobian_dp[3][4] = P::lane(t433, 1);
+    jacobian_dp[3][5] = P::lane(t434, 1);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t227, 2);
+    jacobian_dp[4][1] = P::lane(t234, 2);
+    jacobian_dp[4][2] = P::lane(t229, 2);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t449, 2);
+    jacobian_dp[4][4] = P::lane(t450, 2);
+    jacobian_dp[4][5] = P::lane(t451, 2);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t228, 2);
+    jacobian_dp[5][1] = P::lane(t238, 2);
+    jacobian_dp[5][2] = P::lane(t239, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t432, 2);
+    jacobian_dp[5][4] = P::lane(t433, 2);
+    jacobian_dp[5][5] = P::lane(t434, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t394, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t325, 1);
+    mass_matrix_p[0][2] = P::lane(t325, 2);
+    mass_matrix_p[1][0] = P::lane(t325, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t374, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t354, 2);
+    mass_matrix_p[2][0] = P::lane(t325, 2);
+    mass_matrix_p[2][1] = P::lane(t354, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t418, 2);
+    mass_matrix_p[3][3] = P::lane(t539, 0);
+    mass_matrix_p[3][4] = P::lane(t539, 1);
+    mass_matrix_p[3][5] = P::lane(t539, 2);
+    mass_matrix_p[4][3] = P::lane(t539, 1);
+    mass_matrix_p[4][4] = P::lane(t550, 1);
+    mass_matrix_p[4][5] = P::lane(t550, 2);
+    mass_matrix_p[5][3] = P::lane(t539, 2);
+    mass_matrix_p[5][4] = P::lane(t550, 2);
+    mass_matrix_p[5][5] = P::lane(t557, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t501, 0);
+    total_bias[1] = P::lane(t501, 1);
+    total_bias[2] = P::lane(t501, 2);
+    total_bias[3] = -P::lane(t564, 0);
+    total_bias[4] = -P::lane(t564, 1);
+    total_bias[5] = -P::lane(t564, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// What follows from the parameters alone, for \`forward_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 41x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 41],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    prepared[12][0] = t1;
+    let t2 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    prepared[12][1] = t2;
+    let t3 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    prepared[12][2] = t3;
+    prepared[12][3] = t3;
+    let t4 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    prepared[13][0] = t4;
+    let t5 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    prepared[13][1] = t5;
+    let t6 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    prepared[13][2] = t6;
+    prepared[13][3] = t6;
+    let t7 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    prepared[14][0] = t7;
+    let t8 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    prepared[14][1] = t8;
+    let t9 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    prepared[14][2] = t9;
+    prepared[14][3] = t9;
+    let t10 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    prepared[15][0] = t10;
+    let t11 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    prepared[15][1] = t11;
+    let t12 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    prepared[15][2] = t12;
+    prepared[15][3] = t12;
+    let t13 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    prepared[16][0] = t13;
+    let t14 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    prepared[16][1] = t14;
+    let t15 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    prepared[16][2] = t15;
+    prepared[16][3] = t15;
+    let t16 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    prepared[17][0] = t16;
+    let t17 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    prepared[17][1] = t17;
+    let t18 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    prepared[17][2] = t18;
+    prepared[17][3] = t18;
+    let t19 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    prepared[18][0] = t19;
+    let t20 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    prepared[18][1] = t20;
+    let t21 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    prepared[18][2] = t21;
+    prepared[18][3] = t21;
+    let t22 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    prepared[19][0] = t22;
+    let t23 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    prepared[19][1] = t23;
+    let t24 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    prepared[19][2] = t24;
+    prepared[19][3] = t24;
+    let t25 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    prepared[20][0] = t25;
+    let t26 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    prepared[20][1] = t26;
+    let t27 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    prepared[20][2] = t27;
+    prepared[20][3] = t27;
+    let t28 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    prepared[21][0] = t28;
+    let t29 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    prepared[21][1] = t29;
+    let t30 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    prepared[21][2] = t30;
+    prepared[21][3] = t30;
+    let t31 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    prepared[23][0] = t31;
+    let t32 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    prepared[23][1] = t32;
+    let t33 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    prepared[23][2] = t33;
+    prepared[23][3] = t33;
+    let t34 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    prepared[25][0] = t34;
+    let t35 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    prepared[25][1] = t35;
+    let t36 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    prepared[25][2] = t36;
+    prepared[25][3] = t36;
+    let t37 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t38 = mul_add(t15, parameters.upper_mass[2], t6 * parameters.upper_mass[5]);
+    let t39 = mul_add(t13, parameters.upper_mass[0], t4 * parameters.upper_mass[3]);
+    let t40 = mul_add(t14, parameters.upper_mass[1], t5 * parameters.upper_mass[4]);
+    let t41 = mul_add(t37, parameters.payload_mass, t38 + (t39 + t40));
+    prepared[37][0] = t41 - parameters.payload_inertia[0][1];
+    let t42 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t43 = mul_add(parameters.upper_mass[2], t30, parameters.upper_mass[5] * t24);
+    let t44 = mul_add(parameters.upper_mass[0], t28, parameters.upper_mass[3] * t22);
+    let t45 = mul_add(parameters.upper_mass[1], t29, parameters.upper_mass[4] * t23);
+    let t46 = mul_add(t42, parameters.payload_mass, t43 + (t44 + t45));
+    prepared[37][1] = t46 - parameters.payload_inertia[1][2];
+    let t47 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t48 = mul_add(t18, parameters.upper_mass[2], t9 * parameters.upper_mass[5]);
+    let t49 = mul_add(t16, parameters.upper_mass[0], t7 * parameters.upper_mass[3]);
+    let t50 = mul_add(t17, parameters.upper_mass[1], t8 * parameters.upper_mass[4]);
+    let t51 = mul_add(t47, parameters.payload_mass, t48 + (t49 + t50));
+    let t52 = t51 - parameters.payload_inertia[0][2];
+    prepared[37][2] = t52;
+    prepared[37][3] = t52;
+    let t53 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t54 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t55 = t54 + parameters.payload_inertia[2][2];
+    let t56 = mul_add(t12, parameters.upper_mass[2], t3 * parameters.upper_mass[5]);
+    let t57 = mul_add(t10, parameters.upper_mass[0], t1 * parameters.upper_mass[3]);
+    let t58 = mul_add(t11, parameters.upper_mass[1], t2 * parameters.upper_mass[4]);
+    let t59 = mul_add(t55, c(0.5), t56 + (t57 + t58));
+    let t60 = t59 - parameters.payload_inertia[0][0];
+    prepared[38][0] = mul_add(parameters.payload_mass, t53, t60);
+    let t61 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t62 = mul_add(parameters.upper_mass[2], t27, parameters.upper_mass[5] * t21);
+    let t63 = mul_add(parameters.upper_mass[0], t25, parameters.upper_mass[3] * t19);
+    let t64 = mul_add(parameters.upper_mass[1], t26, parameters.upper_mass[4] * t20);
+    let t65 = mul_add(t55, c(0.5), t62 + (t63 + t64));
+    let t66 = t65 - parameters.payload_inertia[1][1];
+    prepared[38][1] = mul_add(parameters.payload_mass, t61, t66);
+    let t67 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t68 = mul_add(parameters.upper_mass[2], t36, parameters.upper_mass[5] * t33);
+    let t69 = mul_add(parameters.upper_mass[0], t34, parameters.upper_mass[3] * t31);
+    let t70 = mul_add(parameters.upper_mass[1], t35, parameters.upper_mass[4] * t32);
+    let t71 = mul_add(t55, c(0.5), t68 + (t69 + t70));
+    let t72 = t71 - parameters.payload_inertia[2][2];
+    let t73 = mul_add(parameters.payload_mass, t67, t72);
+    prepared[38][2] = t73;
+    prepared[38][3] = t73;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t74 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[22][0] = t74;
+    let t75 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[22][1] = t75;
+    let t76 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[22][2] = t76;
+    prepared[22][3] = t76;
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t77 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[24][0] = t77;
+    let t78 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[24][1] = t78;
+    let t79 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[24][2] = t79;
+    prepared[24][3] = t79;
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t80 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[26][2] = t80;
+    prepared[26][3] = t80;
+    let t81 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[26][0] = t81;
+    let t82 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[26][1] = t82;
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t83 = mul_add(parameters.lower_com_distance[3], t74, parameters.lower_inertia[3]);
+    let t84 = t83 + parameters.upper_inertia[3];
+    prepared[28][0] = mul_add(parameters.upper_com_distance[3], t81, t84);
+    let t85 = mul_add(parameters.lower_com_distance[4], t75, parameters.lower_inertia[4]);
+    let t86 = t85 + parameters.upper_inertia[4];
+    prepared[28][1] = mul_add(parameters.upper_com_distance[4], t82, t86);
+    let t87 = mul_add(parameters.lower_com_distance[5], t76, parameters.lower_inertia[5]);
+    let t88 = t87 + parameters.upper_inertia[5];
+    let t89 = mul_add(parameters.upper_com_distance[5], t80, t88);
+    prepared[28][2] = t89;
+    prepared[28][3] = t89;
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t90 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[27][2] = t90;
+    prepared[27][3] = t90;
+    let t91 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[27][0] = t91;
+    let t92 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[27][1] = t92;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t93 = mul_add(parameters.lower_com_distance[0], t77, parameters.lower_inertia[0]);
+    let t94 = t93 + parameters.upper_inertia[0];
+    prepared[29][0] = mul_add(parameters.upper_com_distance[0], t91, t94);
+    let t95 = mul_add(parameters.lower_com_distance[1], t78, parameters.lower_inertia[1]);
+    let t96 = t95 + parameters.upper_inertia[1];
+    prepared[29][1] = mul_add(parameters.upper_com_distance[1], t92, t96);
+    let t97 = mul_add(parameters.lower_com_distance[2], t79, parameters.lower_inertia[2]);
+    let t98 = t97 + parameters.upper_inertia[2];
+    let t99 = mul_add(parameters.upper_com_distance[2], t90, t98);
+    prepared[29][2] = t99;
+    prepared[29][3] = t99;
+    // first moment of payload and platform-side leg ends
+    let t100 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t101 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t100);
+    let t102 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t103 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t102);
+    let t104 = parameters.platform_point[4][0] * parameters.upper_mass[4];
+    let t105 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t104);
+    let t106 = t101 + (t103 + t105);
+    prepared[36][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t106);
+    let t107 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t108 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t107);
+    let t109 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t110 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t109);
+    let t111 = parameters.platform_point[4][1] * parameters.upper_mass[4];
+    let t112 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t111);
+    let t113 = t108 + (t110 + t112);
+    prepared[36][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t113);
+    let t114 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t115 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t114);
+    let t116 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t117 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t116);
+    let t118 = parameters.platform_point[4][2] * parameters.upper_mass[4];
+    let t119 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t118);
+    let t120 = t115 + (t117 + t119);
+    let t121 = mul_add(parameters.payload_com[2], parameters.payload_mass, t120);
+    prepared[36][2] = t121;
+    prepared[36][3] = t121;
+    // mass of payload and platform-side leg ends
+    let t122 = parameters.upper_mass[4] + parameters.upper_mass[1];
+    let t123 = parameters.upper_mass[3] + parameters.upper_mass[0] + t122;
+    let t124 = parameters.upper_mass[5] + parameters.upper_mass[2] + t123;
+    let t125 = parameters.payload_mass + t124;
+    prepared[40][0] = t125;
+    prepared[40][1] = t125;
+    prepared[40][2] = t125;
+    prepared[40][3] = t125;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.base_point[0][1];
+    prepared[5][1] = parameters.base_point[1][1];
+    prepared[5][2] = parameters.base_point[2][1];
+    prepared[5][3] = parameters.base_point[2][1];
+    prepared[6][0] = parameters.platform_point[3][2];
+    prepared[6][1] = parameters.platform_point[4][2];
+    prepared[6][2] = parameters.platform_point[5][2];
+    prepared[6][3] = parameters.platform_point[5][2];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[1][0];
+    prepared[7][2] = parameters.base_point[2][0];
+    prepared[7][3] = parameters.base_point[2][0];
+    prepared[8][0] = parameters.base_point[0][2];
+    prepared[8][1] = parameters.base_point[1][2];
+    prepared[8][2] = parameters.base_point[2][2];
+    prepared[8][3] = parameters.base_point[2][2];
+    prepared[9][0] = parameters.base_point[3][1];
+    prepared[9][1] = parameters.base_point[4][1];
+    prepared[9][2] = parameters.base_point[5][1];
+    prepared[9][3] = parameters.base_point[5][1];
+    prepared[10][0] = parameters.base_point[3][0];
+    prepared[10][1] = parameters.base_point[4][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[30][0] = parameters.rest_length[0];
+    prepared[30][1] = parameters.rest_length[1];
+    prepared[30][2] = parameters.rest_length[2];
+    prepared[30][3] = parameters.rest_length[2];
+    prepared[31][0] = parameters.axial_stiffness[0];
+    prepared[31][1] = parameters.axial_stiffness[1];
+    prepared[31][2] = parameters.axial_stiffness[2];
+    prepared[31][3] = parameters.axial_stiffness[2];
+    prepared[32][0] = parameters.axial_damping[0];
+    prepared[32][1] = parameters.axial_damping[1];
+    prepared[32][2] = parameters.axial_damping[2];
+    prepared[32][3] = parameters.axial_damping[2];
+    prepared[33][0] = parameters.rest_length[3];
+    prepared[33][1] = parameters.rest_length[4];
+    prepared[33][2] = parameters.rest_length[5];
+    prepared[33][3] = parameters.rest_length[5];
+    prepared[34][0] = parameters.axial_stiffness[3];
+    prepared[34][1] = parameters.axial_stiffness[4];
+    prepared[34][2] = parameters.axial_stiffness[5];
+    prepared[34][3] = parameters.axial_stiffness[5];
+    prepared[35][0] = parameters.axial_damping[3];
+    prepared[35][1] = parameters.axial_damping[4];
+    prepared[35][2] = parameters.axial_damping[5];
+    prepared[35][3] = parameters.axial_damping[5];
+    prepared[39][0] = parameters.gravity[0];
+    prepared[39][1] = parameters.gravity[1];
+    prepared[39][2] = parameters.gravity[2];
+    prepared[39][3] = parameters.gravity[2];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 41x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 41],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t32 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    // constant and copied elements
+    let t36 = P::load(&prepared[7]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = mul_add(t21, P::splat(P::lane(t17, 1)), t32);
+    let t39 = mul_add(t21, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // constant and copied elements
+    let t41 = P::load(&prepared[8]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t36;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t20;
+    // constant and copied elements
+    let t44 = P::load(&prepared[9]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t45 = mul_add(t21, P::splat(P::lane(t17, 2)), t40);
+    // legs 1, 2, 3: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 2)) + t37 - t41;
+    // legs 4, 5, 6: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 1)) + t38 - t44;
+    // constant and copied elements
+    let t48 = P::load(&prepared[10]);
+    let t49 = P::load(&prepared[11]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t53 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // legs 4, 5, 6: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the platform
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t57 = mul_add(t5, P::splat(base_velocity[5]), t53);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 2, 3: actuator length d
+    let t59 = sqrt(mul_add(t46, t46, mul_add(t42, t42, t43 * t43)));
+    // velocity of the platform origin relative to the base
+    let t60 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // angular velocity of the platform
+    let t61 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    // platform origin seen from the base
+    let t62 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // rotation of the platform seen from the base
+    let t63 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: actuator length d
+    let t64 = sqrt(mul_add(t54, t54, mul_add(t50, t50, t47 * t47)));
+    // velocity of the platform origin relative to the base
+    let t65 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t60);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t67 = P::triple([P::lane(t57, 1), P::lane(t57, 2), P::lane(t57, 0)]);
+    let t68 = P::triple([P::lane(t57, 2), P::lane(t57, 0), P::lane(t57, 1)]);
+    // angular velocity of the platform relative to the base
+    let t69 = t57 - t61;
+    // rotation of the platform seen from the base
+    let t70 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular velocity of the platform
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    // angular acceleration of the base
+    let t72 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // velocity of the platform origin relative to the base
+    let t73 = mul_add(t62, t68, neg_mul_add(t58, t67, t65));
+    // acceleration per platform coordinate of points of the platform
+    let t74 = mul_sub(t61, t63, t14 * t71);
+    let t75 = mul_sub(t61, t70, t15 * t71);
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // angular acceleration of the base
+    let t77 = mul_add(t5, P::splat(base_acceleration[5]), t72);
+    // acceleration per platform coordinate of points of the platform
+    let t78 = mul_sub(t61, t76, t17 * t71);
+    // angular velocity of the base
+    let t79 = P::triple([P::lane(t57, 0), P::lane(t57, 2), P::lane(t57, 0)]);
+    let t80 = P::triple([P::lane(t57, 1), P::lane(t57, 1), P::lane(t57, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t81 = neg_mul_add(t31, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // angular velocity of the platform
+    let t83 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t84 = P::triple([P::lane(t74, 2), P::lane(t74, 0), P::lane(t74, 1)]);
+    // acceleration of the base origin less gravity
+    let t85 = base_acceleration[0] - parameters.gravity[0];
+    let t86 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t87 = P::triple([P::lane(t57, 2), P::lane(t57, 2), P::lane(t57, 0)]);
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t88 = w(1.0) / t64;
+    // acceleration per base coordinate of points that move with the base
+    let t89 = t79 * t80;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t90 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    // acceleration per platform coordinate of points of the platform
+    let t91 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t81);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t57, 1), P::lane(t57, 0), P::lane(t57, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t94 = mul_sub(t71, t74, t83 * t84);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t95 = t43 * t82;
+    // acceleration of the base origin less gravity
+    let t96 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t97 = mul_add(t93, t93, t87 * t87);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t98 = mul_add(t33, P::splat(P::lane(t69, 2)), t90);
+    let t99 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    // angular acceleration of the base
+    let t100 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t101 = mul_sub(t71, t75, t83 * t91);
+    let t102 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t103 = t42 * t82;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t104 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t73, 1)));
+    // acceleration of the base origin less gravity
+    let t105 = mul_add(t5, P::splat(t96), mul_add(t2, P::splat(t85), t86));
+    // acceleration per base coordinate of points that move with the base
+    let t106 = mul_sub(t79, t80, t100);
+    // angular acceleration of the base
+    let t107 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t108 = P::triple([P::lane(t89, 2), P::lane(t89, 0), P::lane(t89, 1)]);
+    let t109 = t107 + t108;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t110 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t73, 0)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t111 = mul_add(t31, P::splat(P::lane(t69, 1)), t99);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t112 = mul_add(t42, P::splat(P::lane(t57, 2)), t92);
+    // acceleration per platform coordinate of points of the platform
+    let t113 = mul_sub(t71, t78, t83 * t102);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t114 = t46 * t82;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t104);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t116 = t9 * P::splat(P::lane(t94, 1));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t117 = t47 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t118 = t20 * P::splat(P::lane(t97, 1));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t119 = mul_add(t46, P::splat(P::lane(t57, 1)), t98);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t120 = mul_add(t38, P::splat(P::lane(t69, 2)), t110);
+    let t121 = neg_mul_add(t38, P::splat(P::lane(t69, 0)), P::splat(P::lane(t73, 2)));
+    // legs 1, 2, 3: actuator velocity d'
+    let t122 = mul_add(t111, t114, mul_add(t98, t103, t92 * t95));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t123 = neg_mul_add(t46, P::splat(P::lane(t57, 0)), t112);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t124 = t9 * P::splat(P::lane(t94, 0));
+    let t125 = mul_add(t12, P::splat(P::lane(t101, 1)), t116);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t126 = t50 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t127 = t20 * P::splat(P::lane(t106, 0));
+    let t128 = mul_add(t41, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t129 = neg_mul_add(t43, P::splat(P::lane(t57, 2)), t119);
+    let t130 = mul_add(t43, P::splat(P::lane(t57, 0)), t111);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t131 = mul_add(t12, P::splat(P::lane(t101, 0)), t124);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t121);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t133 = mul_add(t50, P::splat(P::lane(t57, 2)), t115);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t134 = mul_add(t41, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
+    let t135 = mul_add(t13, P::splat(P::lane(t113, 1)), t125);
+    let t136 = t9 * P::splat(P::lane(t94, 2));
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t137 = t54 * t88;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t138 = mul_sub(t36, P::splat(P::lane(t109, 1)), t118) + t128;
+    let t139 = t20 * P::splat(P::lane(t109, 2));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t140 = t18 * P::splat(P::lane(t94, 1));
+    let t141 = t44 * P::splat(P::lane(t97, 1));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t142 = mul_add(t54, P::splat(P::lane(t57, 1)), t120);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t143 = neg_mul_add(t42, P::splat(P::lane(t57, 1)), t130);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t144 = mul_add(t13, P::splat(P::lane(t113, 0)), t131);
+    let t145 = mul_add(t12, P::splat(P::lane(t101, 2)), t136);
+    // legs 4, 5, 6: actuator velocity d'
+    let t146 = mul_add(t132, t137, mul_add(t120, t126, t115 * t117));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t147 = t82 * neg_mul_add(t95, t122, t123);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t148 = neg_mul_add(t54, P::splat(P::lane(t57, 0)), t133);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t149 = t134 - mul_sub(t36, P::splat(P::lane(t97, 0)), t127);
+    let t150 = t135 - t138;
+    let t151 = neg_mul_add(t41, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t152 = t18 * P::splat(P::lane(t94, 0));
+    let t153 = mul_add(t19, P::splat(P::lane(t101, 1)), t140);
+    // second moment of payload and platform-side leg ends
+    let t154 = P::load(&prepared[12]);
+    let t155 = P::load(&prepared[13]);
+    let t156 = P::load(&prepared[14]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t157 = t44 * P::splat(P::lane(t106, 0));
+    let t158 = mul_add(t49, P::splat(P::lane(t106, 1)), P::splat(P::lane(t105, 1)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t159 = t82 * neg_mul_add(t103, t122, t129);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t160 = neg_mul_add(t47, P::splat(P::lane(t57, 2)), t142);
+    let t161 = mul_add(t47, P::splat(P::lane(t57, 0)), t132);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t162 = t144 - t149;
+    let t163 = mul_add(t13, P::splat(P::lane(t113, 2)), t145);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t164 = mul_add(t19, P::splat(P::lane(t101, 0)), t152);
+    // second moment of payload and platform-side leg ends
+    let t165 = P::load(&prepared[15]);
+    let t166 = P::load(&prepared[16]);
+    let t167 = P::load(&prepared[17]);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t168 = mul_add(t36, P::splat(P::lane(t106, 2)), t139) + t151;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t169 = mul_add(t49, P::splat(P::lane(t109, 0)), P::splat(P::lane(t105, 0)));
+    let t170 = mul_add(t21, P::splat(P::lane(t113, 1)), t153);
+    let t171 = t18 * P::splat(P::lane(t94, 2));
+    let t172 = mul_sub(t48, P::splat(P::lane(t109, 1)), t141) + t158;
+    let t173 = t44 * P::splat(P::lane(t109, 2));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t174 = t82 * neg_mul_add(t114, t122, t143);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t175 = neg_mul_add(t50, P::splat(P::lane(t57, 1)), t161);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t176 = t163 - t168;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t177 = mul_add(t21, P::splat(P::lane(t113, 0)), t164);
+    let t178 = mul_add(t19, P::splat(P::lane(t101, 2)), t171);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t179 = t88 * neg_mul_add(t117, t146, t148);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t180 = t169 - mul_sub(t48, P::splat(P::lane(t97, 0)), t157);
+    let t181 = t170 - t172;
+    let t182 = neg_mul_add(t49, P::splat(P::lane(t97, 2)), P::splat(P::lane(t105, 2)));
+    // second moment of payload and platform-side leg ends
+    let t183 = P::load(&prepared[18]);
+    let t184 = P::load(&prepared[19]);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t185 = mul_add(t114, t176, mul_add(t103, t162, t95 * t150));
+    let t186 = mul_add(t174, t174, mul_add(t159, t159, t147 * t147));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t187 = t88 * neg_mul_add(t126, t146, t160);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t188 = t177 - t180;
+    let t189 = mul_add(t21, P::splat(P::lane(t113, 2)), t178);
+    // second moment of payload and platform-side leg ends
+    let t190 = P::load(&prepared[20]);
+    let t191 = P::load(&prepared[21]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t192 = mul_add(t48, P::splat(P::lane(t106, 2)), t173) + t182;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t193 = mul_add(t59, t186, t185);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t194 = t88 * neg_mul_add(t137, t146, t175);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t195 = t189 - t192;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t196 = P::load(&prepared[22]);
+    // second moment of payload and platform-side leg ends
+    let t197 = P::load(&prepared[23]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t198 = mul_add(t137, t195, mul_add(t126, t188, t117 * t181));
+    let t199 = mul_add(t194, t194, mul_add(t187, t187, t179 * t179));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t200 = t122 * w(2.0);
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t201 = P::load(&prepared[24]);
+    // second moment of payload and platform-side leg ends
+    let t202 = P::load(&prepared[25]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t203 = mul_add(t64, t199, t198);
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t204 = P::load(&prepared[26]);
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t205 = P::load(&prepared[27]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t206 = t82 * neg_mul_add(t159, t200, neg_mul_add(t103, t193, t162));
+    let t207 = t82 * neg_mul_add(t147, t200, neg_mul_add(t95, t193, t150));
+    let t208 = t82 * neg_mul_add(t174, t200, neg_mul_add(t114, t193, t176));
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t209 = P::load(&prepared[28]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t210 = t146 * w(2.0);
+    let t211 = t88 * t204;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t212 = t88 * t88;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t213 = t82 * t201;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t214 = P::load(&prepared[29]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t215 = t82 * t205;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t216 = t82 * t82;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t217 = mul_add(t114, t163, mul_add(t103, t144, t95 * t135));
+    // constant and copied elements
+    let t218 = P::load(&prepared[30]);
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t219 = t209 * t212;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t220 = t213 * mul_add(t114, t168, mul_add(t103, t149, t95 * t138));
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t221 = t59 - t218;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t222 = t88 * neg_mul_add(t179, t210, neg_mul_add(t117, t203, t181));
+    // constant and copied elements
+    let t223 = P::load(&prepared[31]);
+    let t224 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t225 = t214 * t216;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t226 = mul_add(w(2.0), neg_mul_add(t209, t212, t211), t219);
+    // legs 4, 5, 6: leg inertia alike in all directions at the platform joint
+    let t227 = neg_mul_add(w(2.0), t211, t219);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t228 = mul_add(t114, t208, mul_add(t103, t206, t95 * t207));
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t229 = neg_mul_add(t144, t215, mul_sub(t149, t213, t205 * t206));
+    let t230 = neg_mul_add(t135, t215, mul_sub(t138, t213, t205 * t207));
+    let t231 = neg_mul_add(t163, t215, mul_sub(t168, t213, t205 * t208));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t232 = t82 * t214;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t233 = t88 * neg_mul_add(t187, t210, neg_mul_add(t126, t203, t188));
+    let t234 = t88 * t196;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t235 = mul_add(w(2.0), neg_mul_add(t214, t216, t215), t225);
+    // legs 1, 2, 3: leg inertia alike in all directions at the platform joint
+    let t236 = neg_mul_add(w(2.0), t215, t225);
+    // constant and copied elements
+    let t237 = P::load(&prepared[32]);
+    // mass matrix in base coordinates
+    let t238 = t117 * t226;
+    let t239 = t137 * t226;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t240 = neg_mul_add(t228, t232, mul_sub(t215, t217, t220));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t241 = mul_add(t137, t189, mul_add(t126, t177, t117 * t170));
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t242 = mul_add(t206, t232, t229);
+    let t243 = mul_add(t207, t232, t230);
+    let t244 = mul_add(t208, t232, t231);
+    // constant and copied elements
+    let t245 = P::load(&prepared[33]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t246 = mul_add(t137, t192, mul_add(t126, t180, t117 * t172)) * t234;
+    let t247 = t88 * neg_mul_add(t194, t210, neg_mul_add(t137, t203, t195));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t248 = t64 - t245;
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t249 = mul_sub(t38, t137, t45 * t117);
+    let t250 = mul_sub(t45, t126, t39 * t137);
+    let t251 = mul_sub(t39, t117, t38 * t126);
+    // mass matrix in base coordinates
+    let t252 = t95 * t235;
+    let t253 = t114 * t235;
+    let t254 = mul_add(t9, t236, t18 * t227);
+    // constant and copied elements
+    let t255 = P::load(&prepared[34]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t256 = mul_sub(t33, t114, t37 * t95);
+    let t257 = mul_sub(t37, t103, t31 * t114);
+    let t258 = mul_sub(t31, t95, t33 * t103);
+    // constant and copied elements
+    let t259 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t260 = mul_add(t137, t247, mul_add(t126, t233, t117 * t222));
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t261 = neg_mul_add(t122, t237, neg_mul_add(t221, t223, t224)) - t240;
+    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    let t262 = t33 * t244;
+    let t263 = t37 * t242;
+    let t264 = t31 * t243;
+    // mass matrix in base coordinates
+    let t265 = t227 + t236;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t266 = t88 * t209;
+    // mass matrix in base coordinates
+    let t267 = mul_add(t103, t103 * t235, t126 * (t126 * t226));
+    let t268 = t226 * t249;
+    let t269 = mul_add(t12, t236, t19 * t227);
+    let t270 = t226 * t250;
+    let t271 = t226 * t251;
+    let t272 = mul_add(t95, t252, t117 * t238);
+    let t273 = mul_add(t114, t253, t137 * t239);
+    let t274 = mul_add(t103, t252, t126 * t238);
+    let t275 = mul_add(t103, t253, t126 * t239);
+    let t276 = mul_add(t95, t253, t117 * t239);
+    // constant and copied elements
+    let t277 = P::load(&prepared[35]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t278 = neg_mul_add(t260, t266, mul_sub(t211, t241, t246));
+    // mass matrix in base coordinates
+    let t279 = t235 * t256;
+    let t280 = t235 * t257;
+    let t281 = t235 * t258;
+    let t282 = mul_add(t166, t236, t155 * t227);
+    let t283 = mul_add(t13, t236, t21 * t227);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t284 = neg_mul_add(t177, t211, mul_sub(t180, t234, t204 * t233));
+    let t285 = neg_mul_add(t170, t211, mul_sub(t172, t234, t204 * t222));
+    let t286 = neg_mul_add(t189, t211, mul_sub(t192, t234, t204 * t247));
+    // wrench left at the trial acceleration
+    let t287 = mul_add(t37, t243, mul_sub(t256, t261, t262));
+    let t288 = mul_add(t31, t244, mul_sub(t257, t261, t263));
+    let t289 = mul_add(t33, t242, mul_sub(t258, t261, t264));
+    // mass matrix in base coordinates
+    let t290 = mul_add(t95, t279, t117 * t268);
+    let t291 = mul_add(t95, t280, t117 * t270);
+    let t292 = mul_add(t95, t281, t117 * t271);
+    let t293 = mul_add(t165, t236, t154 * t227);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t294 = neg_mul_add(t146, t277, neg_mul_add(t248, t255, t259)) - t278;
+    // mass matrix in base coordinates
+    let t295 = mul_add(t190, t236, t183 * t227);
+    // inertia less external wrench that the actuators must balance
+    let t296 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t297 = P::triple([P::lane(t267, 0), P::lane(t272, 0), P::lane(t273, 0)]);
+    let t298 = P::triple([P::lane(t267, 1), P::lane(t272, 1), P::lane(t273, 1)]);
+    let t299 = P::lane(t254, 2) + (P::lane(t254, 1) + P::lane(t254, 0));
+    let t300 = mul_add(t103, t279, t126 * t268);
+    let t301 = mul_add(t103, t280, t126 * t270);
+    let t302 = mul_add(t103, t281, t126 * t271);
+    let t303 = P::lane(t265, 2) + (P::lane(t265, 1) + P::lane(t265, 0));
+    let t304 = P::triple([P::lane(t276, 0), P::lane(t275, 0), P::lane(t274, 0)]);
+    let t305 = P::triple([P::lane(t276, 1), P::lane(t275, 1), P::lane(t274, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t306 = mul_add(t233, t266, t284);
+    let t307 = mul_add(t222, t266, t285);
+    let t308 = mul_add(t247, t266, t286);
+    // mass matrix in base coordinates
+    let t309 = mul_add(t167, t236, t156 * t227);
+    // first moments by platform coordinate of the payload's inertia force
+    let t310 = mul_add(t101, P::splat(prepared[38][0]), t94 * P::splat(prepared[37][0]));
+    // inertia less external wrench that the actuators must balance
+    let t311 = mul_add(t2, P::splat(external_wrench[0]), t296);
+    // mass matrix in base coordinates
+    let t312 = P::triple([P::lane(t267, 2), P::lane(t272, 2), P::lane(t273, 2)]);
+    let t313 = mul_add(t191, t236, t184 * t227);
+    let t314 = P::lane(t269, 2) + (P::lane(t269, 1) + P::lane(t269, 0));
+    let t315 = prepared[36][1] + t299;
+    let t316 = P::triple([P::lane(t276, 2), P::lane(t275, 2), P::lane(t274, 2)]);
+    let t317 = t304 + t305 + t316;
+    let t318 = mul_add(t114, t279, t137 * t268);
+    let t319 = mul_add(t114, t280, t137 * t270);
+    let t320 = mul_add(t114, t281, t137 * t271);
+    // wrench left at the trial acceleration
+    let t321 = neg_mul_add(t38, t308, mul_add(t249, t294, t287));
+    let t322 = neg_mul_add(t45, t306, mul_add(t250, t294, t288));
+    let t323 = neg_mul_add(t39, t307, mul_add(t251, t294, t289));
+    // mass matrix in base coordinates
+    let t324 = P::triple([P::lane(t290, 0), P::lane(t291, 0), P::lane(t292, 0)]);
+    let t325 = P::triple([P::lane(t290, 1), P::lane(t291, 1), P::lane(t292, 1)]);
+    let t326 = P::lane(t282, 2) + (P::lane(t282, 1) + P::lane(t282, 0));
+    let t327 = prepared[36][0] + t314;
+    // first moments by platform coordinate of the payload's inertia force
+    let t328 = mul_add(t113, P::splat(prepared[37][2]), t310);
+    // inertia less external wrench that the actuators must balance
+    let t329 = mul_add(t5, P::splat(external_wrench[2]), t311);
+    // mass matrix in base coordinates
+    let t330 = t297 + t298 + t312 + P::splat(prepared[40][0] + t303);
+    let t331 = mul_add(t202, t236, t197 * t227);
+    let t332 = P::lane(t283, 2) + (P::lane(t283, 1) + P::lane(t283, 0));
+    let t333 = P::triple([P::lane(t300, 0), P::lane(t301, 0), P::lane(t302, 0)]);
+    let t334 = P::triple([P::lane(t300, 1), P::lane(t301, 1), P::lane(t302, 1)]);
+    let t335 = P::triple([P::lane(t290, 2), P::lane(t291, 2), P::lane(t292, 2)]);
+    let t336 = P::lane(t293, 2) + (P::lane(t293, 1) + P::lane(t293, 0));
+    let t337 = prepared[37][0] + t326;
+    let t338 = P::mul_add(P::lane(t15, 2), t327, P::lane(t14, 2) * t315);
+    let t339 = P::mul_add(P::lane(t15, 0), t327, P::lane(t14, 0) * t315);
+    // wrench left at the trial acceleration
+    let t340 = mul_add(t45, t307, t321);
+    let t341 = mul_add(t39, t308, t322);
+    let t342 = mul_add(t38, t306, t323);
+    // mass matrix in base coordinates
+    let t343 = t324 + t325 + t335;
+    let t344 = P::lane(t295, 2) + (P::lane(t295, 1) + P::lane(t295, 0));
+    let t345 = prepared[36][2] + t332;
+    // first moments by platform coordinate of the payload's inertia force
+    let t346 = mul_add(t101, P::splat(prepared[37][0]), t94 * P::splat(prepared[38][1]));
+    // wrench left at the trial acceleration
+    let t347 = t306 - mul_sub(t126, t294, neg_mul_add(t103, t261, t242));
+    let t348 = t307 - mul_sub(t117, t294, neg_mul_add(t95, t261, t243));
+    let t349 = t308 - mul_sub(t137, t294, neg_mul_add(t114, t261, t244));
+    // mass matrix in base coordinates
+    let t350 = P::triple([P::lane(t300, 2), P::lane(t301, 2), P::lane(t302, 2)]);
+    let t351 = mul_add(t256, t279, t249 * t268);
+    let t352 = mul_add(t257, t280, t250 * t270);
+    let t353 = mul_add(t258, t281, t251 * t271);
+    let t354 = prepared[38][0] + t336;
+    let t355 = P::triple([P::lane(t317, 2), P::lane(t317, 2), P::lane(t317, 0)]);
+    let t356 = P::triple([P::lane(t317, 1), P::lane(t317, 0), P::lane(t317, 1)]);
+    let t357 = P::mul_add(P::lane(t15, 1), t327, P::lane(t14, 1) * t315);
+    let t358 = t333 + t334 + t350;
+    let t359 = P::triple([P::lane(t318, 0), P::lane(t319, 0), P::lane(t320, 0)]);
+    let t360 = P::triple([P::lane(t318, 1), P::lane(t319, 1), P::lane(t320, 1)]);
+    let t361 = mul_add(t256, t280, t249 * t270);
+    let t362 = mul_add(t256, t281, t249 * t271);
+    let t363 = mul_add(t257, t281, t250 * t271);
+    let t364 = prepared[38][1] + t344;
+    let t365 = P::lane(t309, 2) + (P::lane(t309, 1) + P::lane(t309, 0));
+    // acceleration that removes the residual wrench
+    let t366 = mul_sub(t355, t356, t317 * t330);
+    // mass matrix in base coordinates
+    let t367 = P::mul_add(P::lane(t17, 2), t345, t338);
+    let t368 = P::mul_add(P::lane(t17, 0), t345, t339);
+    let t369 = P::lane(t313, 2) + (P::lane(t313, 1) + P::lane(t313, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t370 = mul_add(t113, P::splat(prepared[37][1]), t346);
+    // inertia less external wrench that the actuators must balance
+    let t371 = P::triple([P::lane(t329, 1), P::lane(t329, 2), P::lane(t329, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t372 = P::triple([P::lane(t328, 1), P::lane(t328, 2), P::lane(t328, 0)]);
+    // mass matrix in base coordinates
+    let t373 = mul_add(t15, P::splat(t354), t14 * P::splat(t337));
+    // inertia less external wrench that the actuators must balance
+    let t374 = neg_mul_add(P::splat(parameters.payload_com[0]), t371, t372);
+    // mass matrix in base coordinates
+    let t375 = P::triple([P::lane(t318, 2), P::lane(t319, 2), P::lane(t320, 2)]);
+    let t376 = prepared[37][2] + t365;
+    let t377 = P::mul_add(P::lane(t17, 1), t345, t357);
+    let t378 = t359 + t360 + t375;
+    let t379 = prepared[37][1] + t369;
+    let t380 = P::triple([P::lane(t330, 1), P::lane(t330, 0), P::lane(t330, 1)]);
+    let t381 = P::triple([P::lane(t330, 2), P::lane(t330, 2), P::lane(t330, 0)]);
+    let t382 = P::lane(t343, 0) - t367;
+    // wrench left at the trial acceleration
+    let t383 = P::triple([P::lane(t347, 0), P::lane(t348, 0), P::lane(t349, 0)]);
+    let t384 = P::triple([P::lane(t347, 1), P::lane(t348, 1), P::lane(t349, 1)]);
+    let t385 = P::triple([P::lane(t340, 0), P::lane(t341, 0), P::lane(t342, 0)]);
+    let t386 = P::triple([P::lane(t340, 1), P::lane(t341, 1), P::lane(t342, 1)]);
+    // mass matrix in base coordinates
+    let t387 = P::lane(t331, 2) + (P::lane(t331, 1) + P::lane(t331, 0));
+    // acceleration that removes the residual wrench
+    let t388 = mul_sub(t380, t381, t317 * t317);
+    // first moments by platform coordinate of the payload's inertia force
+    let t389 = mul_add(t101, P::splat(prepared[37][2]), t94 * P::splat(prepared[37][1]));
+    // mass matrix in base coordinates
+    let t390 = mul_add(t17, P::splat(t376), t373);
+    let t391 = mul_add(t15, P::splat(t337), t14 * P::splat(t364));
+    let t392 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
+    let t393 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    let t394 = t367 + P::lane(t358, 1);
+    let t395 = P::triple([t382, P::lane(t343, 1), t368 + P::lane(t343, 2)]);
+    // wrench left at the trial acceleration
+    let t396 = P::triple([P::lane(t347, 2), P::lane(t348, 2), P::lane(t349, 2)]);
+    let t397 = P::triple([P::lane(t340, 2), P::lane(t341, 2), P::lane(t342, 2)]);
+    // mass matrix in base coordinates
+    let t398 = prepared[38][2] + t387;
+    let t399 = P::triple([P::lane(t363, 0), P::lane(t362, 0), P::lane(t361, 0)]);
+    let t400 = P::triple([P::lane(t363, 1), P::lane(t362, 1), P::lane(t361, 1)]);
+    // acceleration that removes the residual wrench
+    let t401 = P::splat(P::lane(t366, 2)) * t395;
+    // first moments by platform coordinate of the payload's inertia force
+    let t402 = mul_add(t113, P::splat(prepared[38][2]), t389);
+    let t403 = P::triple([P::lane(t370, 1), P::lane(t370, 2), P::lane(t370, 0)]);
+    // mass matrix in base coordinates
+    let t404 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
+    let t405 = mul_add(t17, P::splat(t379), t391);
+    let t406 = mul_add(t15, P::splat(t376), t14 * P::splat(t379));
+    let t407 = P::triple([P::lane(t358, 0), t394, P::lane(t358, 2) - t377]);
+    // inertia less external wrench that the actuators must balance
+    let t408 = neg_mul_add(P::splat(parameters.payload_com[1]), t371, t403);
+    let t409 = P::triple([P::lane(t374, 1), P::lane(t374, 2), P::lane(t374, 0)]);
+    // mass matrix in base coordinates
+    let t410 = P::triple([P::lane(t363, 2), P::lane(t362, 2), P::lane(t361, 2)]);
+    // acceleration that removes the residual wrench
+    let t411 = mul_add(P::splat(P::lane(t388, 0)), t407, t401);
+    // mass matrix in base coordinates
+    let t412 = t377 + P::lane(t378, 0);
+    let t413 = P::lane(t378, 1) - t368;
+    // wrench left at the trial acceleration
+    let t414 = mul_add(t101, P::splat(prepared[36][0]), t383 + t384 + t396);
+    let t415 = neg_mul_add(t70, t409, t385 + t386 + t397);
+    // mass matrix in base coordinates
+    let t416 = t392 + t393 + t404 + P::splat(t354 + t364 + t398);
+    let t417 = mul_add(t17, P::splat(t398), t406);
+    // rotation of the platform seen from the base
+    let t418 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t419 = P::triple([P::lane(t390, 1), P::lane(t390, 0), P::lane(t390, 0)]);
+    let t420 = P::triple([t412, t413, P::lane(t378, 2)]);
+    // rotation of the platform seen from the base
+    let t421 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t422 = neg_mul_add(t418, t419, t399 + t400 + t410);
+    // acceleration that removes the residual wrench
+    let t423 = mul_add(P::splat(P::lane(t366, 1)), t420, t411);
+    let t424 = t395 * P::splat(P::lane(t388, 1));
+    // wrench left at the trial acceleration
+    let t425 = mul_add(t94, P::splat(prepared[36][1]), t414);
+    // acceleration that removes the residual wrench
+    let t426 = P::lane(t317, 2) * P::lane(t366, 2);
+    // first moments by platform coordinate of the payload's inertia force
+    let t427 = P::triple([P::lane(t402, 1), P::lane(t402, 2), P::lane(t402, 0)]);
+    // rotation of the platform seen from the base
+    let t428 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t429 = P::triple([P::lane(t405, 1), P::lane(t405, 0), P::lane(t405, 0)]);
+    // acceleration that removes the residual wrench
+    let t430 = mul_add(P::splat(P::lane(t366, 2)), t407, t424);
+    // inertia less external wrench that the actuators must balance
+    let t431 = neg_mul_add(P::splat(parameters.payload_com[2]), t371, t427);
+    let t432 = P::triple([P::lane(t408, 1), P::lane(t408, 2), P::lane(t408, 0)]);
+    // acceleration that removes the residual wrench
+    let t433 = t395 * P::splat(P::lane(t366, 0));
+    let t434 = P::mul_add(P::lane(t330, 0), P::lane(t388, 0), t426);
+    // wrench left at the trial acceleration
+    let t435 = neg_mul_add(t63, t432, mul_add(t374, t421, t415));
+    // mass matrix in base coordinates
+    let t436 = neg_mul_add(t14, t405, neg_mul_add(t15, t390, t416));
+    // rotation of the platform seen from the base
+    let t437 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t438 = mul_add(t420, P::splat(P::lane(t366, 0)), t430);
+    // mass matrix in base coordinates
+    let t439 = P::triple([P::lane(t417, 1), P::lane(t417, 0), P::lane(t417, 0)]);
+    // acceleration that removes the residual wrench
+    let t440 = mul_add(t407, P::splat(P::lane(t366, 1)), t433);
+    // rotation of the platform seen from the base
+    let t441 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t442 = neg_mul_add(t437, t439, neg_mul_add(t428, t429, t422));
+    // acceleration that removes the residual wrench
+    let t443 = P::mul_add(P::lane(t317, 1), P::lane(t366, 1), t434);
+    // mass matrix in base coordinates
+    let t444 = P::triple([t394, P::lane(t358, 0), P::lane(t358, 0)]);
+    // acceleration that removes the residual wrench
+    let t445 = P::triple([P::lane(t423, 2), P::lane(t423, 2), P::lane(t423, 1)]);
+    // wrench left at the trial acceleration
+    let t446 = t329 - mul_add(t113, P::splat(prepared[36][2]), t425);
+    // mass matrix in base coordinates
+    let t447 = neg_mul_add(t17, t417, t436);
+    // acceleration that removes the residual wrench
+    let t448 = mul_add(t420, P::splat(P::lane(t388, 2)), t440);
+    // inertia less external wrench that the actuators must balance
+    let t449 = P::triple([P::lane(t431, 1), P::lane(t431, 2), P::lane(t431, 0)]);
+    // acceleration that removes the residual wrench
+    let t450 = mul_sub(t442, P::splat(t443), t444 * t445);
+    // wrench left at the trial acceleration
+    let t451 = neg_mul_add(t76, t449, mul_add(t408, t441, t435));
+    // acceleration that removes the residual wrench
+    let t452 = mul_sub(P::splat(t443), t447, t407 * t423);
+    // mass matrix in base coordinates
+    let t453 = P::triple([P::lane(t343, 1), t382, t382]);
+    // acceleration that removes the residual wrench
+    let t454 = P::triple([P::lane(t438, 2), P::lane(t438, 2), P::lane(t438, 1)]);
+    // rotation of the platform seen from the base
+    let t455 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t456 = P::triple([P::lane(t446, 1), P::lane(t446, 2), P::lane(t446, 0)]);
+    // acceleration that removes the residual wrench
+    let t457 = P::triple([P::lane(t366, 2), P::lane(t366, 0), P::lane(t366, 1)]);
+    // mass matrix in base coordinates
+    let t458 = P::triple([t413, t412, t412]);
+    // acceleration that removes the residual wrench
+    let t459 = P::triple([P::lane(t448, 2), P::lane(t448, 2), P::lane(t448, 1)]);
+    // wrench left at the trial acceleration
+    let t460 = P::triple([P::lane(t446, 2), P::lane(t446, 0), P::lane(t446, 1)]);
+    // acceleration that removes the residual wrench
+    let t461 = P::triple([P::lane(t366, 1), P::lane(t366, 2), P::lane(t366, 0)]);
+    let t462 = neg_mul_add(t458, t459, neg_mul_add(t453, t454, t450));
+    // wrench left at the trial acceleration
+    let t463 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t431, t455, t451));
+    // acceleration that removes the residual wrench
+    let t464 = neg_mul_add(t420, t448, neg_mul_add(t395, t438, t452));
+    let t465 = mul_add(t460, t461, mul_add(t388, t446, t456 * t457));
+    // wrench left at the trial acceleration
+    let t466 = mul_add(t1, P::splat(external_wrench[4]), t463);
+    // acceleration that removes the residual wrench
+    let t467 = P::triple([P::lane(t462, 1), P::lane(t462, 0), P::lane(t462, 1)]);
+    let t468 = P::triple([P::lane(t462, 2), P::lane(t462, 2), P::lane(t462, 0)]);
+    // wrench left at the trial acceleration
+    let t469 = mul_add(t5, P::splat(external_wrench[5]), t466);
+    // acceleration that removes the residual wrench
+    let t470 = mul_sub(t467, t468, t462 * t464);
+    let t471 = P::triple([P::lane(t464, 1), P::lane(t464, 0), P::lane(t464, 1)]);
+    let t472 = mul_sub(P::splat(t443), t469, t407 * P::splat(P::lane(t465, 0)));
+    let t473 = P::triple([P::lane(t464, 2), P::lane(t464, 2), P::lane(t464, 0)]);
+    let t474 = mul_sub(t471, t473, t462 * t462);
+    let t475 = P::triple([P::lane(t423, 0), P::lane(t438, 0), P::lane(t448, 0)]);
+    let t476 = P::triple([P::lane(t423, 1), P::lane(t438, 1), P::lane(t448, 1)]);
+    let t477 = neg_mul_add(t395, P::splat(P::lane(t465, 1)), t472);
+    let t478 = P::triple([P::lane(t423, 2), P::lane(t438, 2), P::lane(t448, 2)]);
+    let t479 = P::lane(t462, 2) * P::lane(t470, 2);
+    let t480 = P::triple([P::lane(t470, 2), P::lane(t470, 0), P::lane(t470, 1)]);
+    let t481 = P::triple([P::lane(t470, 1), P::lane(t470, 2), P::lane(t470, 0)]);
+    // constant and copied elements
+    let t482 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t483 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t484 = P::mul_add(P::lane(t464, 0), P::lane(t474, 0), t479);
+    let t485 = neg_mul_add(t420, P::splat(P::lane(t465, 2)), t477);
+    // constant and copied elements
+    let t486 = P::load(&prepared[39]);
+    let t487 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t488 = c(1.0) / P::mul_add(P::lane(t462, 1), P::lane(t470, 1), t484);
+    let t489 = P::triple([P::lane(t485, 1), P::lane(t485, 2), P::lane(t485, 0)]);
+    let t490 = P::triple([P::lane(t485, 2), P::lane(t485, 0), P::lane(t485, 1)]);
+    let t491 = mul_add(t481, t490, mul_add(t474, t485, t480 * t489));
+    let t492 = P::splat(t488) * t491;
+    let t493 = neg_mul_add(t475, P::splat(P::lane(t492, 0)), t465);
+    // platform acceleration v_p'
+    let t494 = t482 * P::splat(P::lane(t492, 1));
+    // acceleration that removes the residual wrench
+    let t495 = neg_mul_add(t476, P::splat(P::lane(t492, 1)), t493);
+    // platform acceleration v_p'
+    let t496 = mul_add(t483, P::splat(P::lane(t492, 0)), t494);
+    // acceleration that removes the residual wrench
+    let t497 = neg_mul_add(t478, P::splat(P::lane(t492, 2)), t495);
+    // platform acceleration v_p'
+    let t498 = mul_add(t487, P::splat(P::lane(t492, 2)), t496);
+    // acceleration that removes the residual wrench
+    let t499 = P::splat(c(1.0) / t443) * t497;
+    // platform acceleration v_p'
+    let t500 = t482 * P::splat(P::lane(t499, 1));
+    let t501 = mul_add(t483, P::splat(P::lane(t499, 0)), t500);
+    let t502 = mul_add(t487, P::splat(P::lane(t499, 2)), t486) + t501;
+    forward_dynamics[0] = P::lane(t502, 0);
+    forward_dynamics[1] = P::lane(t502, 1);
+    forward_dynamics[2] = P::lane(t502, 2);
+    forward_dynamics[3] = P::lane(t498, 0);
+    forward_dynamics[4] = P::lane(t498, 1);
+    forward_dynamics[5] = P::lane(t498, 2);
 }
