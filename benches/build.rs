@@ -1,9 +1,10 @@
 //! Tells the crate how it is compiled, because instruction counts compare only under the same compiler and flags; which
 //! platform is measured; and, with the feature `peers`, where other people's code for it lies.
 //!
-//! `cargo xtask bench` sets `DYN_BENCHES_PLATFORM` (a platform file), `DYN_BENCHES_MODEL` (what dyn-gen generated for it) and
-//! `DYN_PEERS` (a folder it filled). Without them: the paper's platform, and no peers. `cargo xtask passes` sets
-//! `DYN_BENCHES_VARIANTS` (a folder of models).
+//! `cargo xtask bench` sets `DYN_BENCHES_PLATFORM` (a platform file), `DYN_BENCHES_MODEL` (what dyn-gen generated for it),
+//! `DYN_BENCHES_PAYLOAD` (the same with payload, gravity and stiffnesses at run time) and `DYN_PEERS` (a folder it filled).
+//! Without them: the paper's platform, no such model, and no peers. `cargo xtask passes` sets `DYN_BENCHES_VARIANTS` (a folder
+//! of models).
 
 use std::env::var;
 use std::path::{Path, PathBuf};
@@ -31,6 +32,7 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let out = PathBuf::from(var("OUT_DIR").expect("cargo sets OUT_DIR"));
     write(&out.join("model.rs"), &model());
+    write(&out.join("payload.rs"), &payload());
     write(&out.join("peers.rs"), &peers());
     write(&out.join("variants.rs"), &variants());
 }
@@ -44,10 +46,30 @@ fn model() -> String {
     let Some(model) = model.filter(|_| platform.is_some()) else {
         return "pub use dyn_runtime::models::Uhp2016 as Baked;\n".into();
     };
-    let text = fs::read_to_string(&model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
-    let name = text.split("pub struct ").nth(1).and_then(|rest| rest.split([';', ' ', '<']).next());
-    let name = name.unwrap_or_else(|| panic!("{}: no model", model.display()));
-    format!("#[path = {model:?}]\n#[rustfmt::skip]\nmod generated;\npub use generated::{name} as Baked;\n")
+    module_of(&model, "Baked")
+}
+
+/// The module of the model whose payload is given at run time, and a function that gives it, if there is one.
+fn payload() -> String {
+    match given("DYN_BENCHES_PAYLOAD") {
+        Some(model) => {
+            let module = module_of(&model, "Payload");
+            format!("{module}pub fn payload() -> Option<Payload> {{\n    Some(Payload::default())\n}}\n")
+        }
+        // A type is needed, whichever.
+        None => "pub use dyn_runtime::models::Uhp as Payload;\npub fn payload() -> Option<Payload> {\n    None\n}\n".into(),
+    }
+}
+
+/// The module of a generated file, its model called `name`.
+fn module_of(model: &Path, name: &str) -> String {
+    let text = fs::read_to_string(model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
+    let types = text.split("pub struct ").skip(1).filter_map(|rest| rest.split([';', ' ', '<']).next());
+    let of_model = types.into_iter().find(|name| *name != "Parameters");
+    let of_model = of_model.unwrap_or_else(|| panic!("{}: no model", model.display()));
+    format!(
+        "#[path = {model:?}]\n#[rustfmt::skip]\nmod generated;\npub use generated::{of_model} as {name};\n"
+    )
 }
 
 /// Declarations of the peers in `DYN_PEERS`; links them.

@@ -4,13 +4,14 @@ use dyn_platform::Platform;
 use dyn_runtime::kernels::{
     CoriolisMatrices, ForwardDynamics, InverseDynamics, JacobianDp, MassMatrixP, Matrices,
 };
-use dyn_runtime::models::Uhp;
+use dyn_runtime::models::PreparedUhp;
 
 use crate::angles;
 use crate::call::{Call, Generated, Reference};
 use crate::flat::Flat;
 use crate::model::Baked;
 use crate::output::Output;
+use crate::payload::{Payload, payload};
 use crate::peers::{Peer, Pinocchio};
 use crate::states::{COUNT, Inputs, States, reference_parameters, runtime_model};
 
@@ -26,13 +27,14 @@ pub const FUNCTIONS: [&str; 7] = [
 ];
 
 /// Every implementation, in the order of tables; not each has every function. Numbers baked in: without lanes, by the model's own
-/// method in lanes, many states in lanes; parameters at run time, written by hand, C by CasADi of the same graph and of the naive
-/// one, Pinocchio.
-pub const IMPLEMENTATIONS: [&str; 8] = [
+/// method in lanes, many states in lanes; all parameters at run time, some of them; written by hand, C by CasADi of the same graph
+/// and of the naive one, Pinocchio.
+pub const IMPLEMENTATIONS: [&str; 9] = [
     "generated",
     "generated_lanes",
     "generated_batch",
     "generated_runtime",
+    "generated_payload",
     "reference",
     "casadi_c_same",
     "casadi_c_naive",
@@ -78,6 +80,7 @@ pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut
                 inverse_dynamics,
                 dyn_reference::inverse_dynamics,
             );
+            cases.with_payload("inverse_dynamics", inverse_dynamics);
             cases.peers::<[f64; 6], 9>("inverse_dynamics", inverse_dynamics_inputs);
         }
         "forward_dynamics" => {
@@ -88,11 +91,13 @@ pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut
                 forward_dynamics,
                 dyn_reference::forward_dynamics,
             );
+            cases.with_payload("forward_dynamics", forward_dynamics);
             cases.peers::<[f64; 6], 9>("forward_dynamics", forward_dynamics_inputs);
             cases.pinocchio();
         }
         "matrices" => {
             cases.own("matrices", matrices, matrices, matrices, dyn_reference::matrices);
+            cases.with_payload("matrices", matrices);
             cases.peers::<[Matrix; 6], 6>("matrices", matrices_inputs);
         }
         "mass_matrix_p" => {
@@ -194,7 +199,7 @@ struct Cases<'a, V> {
     platform: &'a Platform,
     states: &'a States,
     visitor: &'a mut V,
-    model: Uhp,
+    model: PreparedUhp,
     parameters: dyn_reference::Parameters,
 }
 
@@ -205,7 +210,7 @@ impl<V: Visitor> Cases<'_, V> {
         function: &'static str,
         flat: impl Fn(&Flat<Baked>, &Inputs, &mut O),
         method: impl Fn(&Baked, &Inputs, &mut O),
-        runtime: impl Fn(&Uhp, &Inputs, &mut O),
+        runtime: impl Fn(&PreparedUhp, &Inputs, &mut O),
         reference: impl Fn(&dyn_reference::Parameters, &dyn_reference::State) -> R,
     ) {
         let case = |implementation| Case { function, implementation, variant: "" };
@@ -220,6 +225,22 @@ impl<V: Visitor> Cases<'_, V> {
         self.visitor.visit(case("generated_runtime"), &states.inputs, runtime);
         let reference = Reference { parameters: self.parameters, function: reference };
         self.visitor.visit(case("reference"), &states.reference, reference);
+    }
+
+    /// The model with its payload at run time, if it is there.
+    fn with_payload<O: Output + Default>(
+        &mut self,
+        function: &'static str,
+        method: impl Fn(&Payload, &Inputs, &mut O),
+    ) {
+        if let Some(model) = payload() {
+            let case = Case { function, implementation: "generated_payload", variant: "" };
+            self.visitor.visit(
+                case,
+                &self.states.inputs,
+                Generated { model, function: method, output: O::default() },
+            );
+        }
     }
 
     /// C by CasADi, every variant that is linked.

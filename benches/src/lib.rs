@@ -53,5 +53,10 @@ pub mod model {
     include!(concat!(env!("OUT_DIR"), "/model.rs"));
 }
 
+/// The same with payload, gravity and stiffnesses given at run time.
+pub mod payload {
+    include!(concat!(env!("OUT_DIR"), "/payload.rs"));
+}
+
 /// Compiler, target, optimisation, target features and flags of this build.
 pub const CODEGEN: &str = env!("DYN_BENCHES_CODEGEN");

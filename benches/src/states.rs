@@ -124,10 +124,10 @@ pub fn reference_parameters(platform: &Platform) -> dyn_reference::Parameters {
         .expect("platforms have every parameter")
 }
 
-/// The generated model with a platform's parameters at run time.
-pub fn runtime_model(platform: &Platform) -> models::Uhp {
+/// The generated model with a platform's parameters at run time, ready to be called.
+pub fn runtime_model(platform: &Platform) -> models::PreparedUhp {
     let parameters = models::Parameters::from_fn(|name, values| {
         values.copy_from_slice(&platform.parameter(name).expect("platforms have every parameter"));
     });
-    models::Uhp { parameters }
+    models::Uhp { parameters }.prepared()
 }

@@ -6,7 +6,7 @@ use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Scala
 use crate::error::GenerateError;
 use crate::evidence::{self, Evidence, Sampling};
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
-use crate::pack::{Packed, pack};
+use crate::pack::{Hoisted, Packed, hoist, pack};
 use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
 use crate::workspace::{parameters, sampled_states};
@@ -120,11 +120,16 @@ pub fn generate(
         let value = |symbol: &Symbol| platform.parameter(&symbol.name).unwrap_or_default();
         parameters.iter().map(value).collect::<Vec<_>>()
     });
-    let in_lanes = functions.iter().filter_map(|function| function.in_lanes.as_ref());
+    let in_lanes: Vec<&Packed> = functions.iter().filter_map(|function| function.in_lanes.as_ref()).collect();
+    let hoisted: Vec<(String, Hoisted)> = in_lanes
+        .iter()
+        .filter_map(|packed| Some((packed.graph.name.clone(), hoist(&packed.graph)?)))
+        .collect();
     let graphs: Vec<&Graph> = functions
         .iter()
         .map(|function| &function.graph)
-        .chain(in_lanes.map(|packed| &packed.graph))
+        .chain(in_lanes.iter().map(|packed| &packed.graph))
+        .chain(hoisted.iter().flat_map(|(_, hoisted)| [&hoisted.preparation, &hoisted.rest]))
         .collect();
     let print = |graph: &&Graph| emit::function(graph, !parameters.is_empty());
     let sources = parallel::map_largest_first(&graphs, |graph| graph.nodes.len(), print)
@@ -142,6 +147,10 @@ pub fn generate(
         .filter(has_all)
         .map(|function| Signature::of(&function.graph).within(program))
         .collect();
+    let rows = |(name, hoisted): &(String, Hoisted)| {
+        (name.clone(), hoisted.preparation.outputs[0].symbol.shape.clone())
+    };
+    let prepared: Vec<(String, Vec<usize>)> = hoisted.iter().map(rows).collect();
     let limits = numbers.platform().and_then(|platform| limits::of_platform(program, platform));
     let model = Model {
         name: &options.model,
@@ -153,6 +162,7 @@ pub fn generate(
         signatures: &signatures,
         functions: &sources,
         in_lanes: &in_lanes,
+        prepared: &prepared,
     };
     let source = emit::model_file(&header(file, numbers, options, &functions, evidence.as_ref())?, &model)?;
     stages.end("print");

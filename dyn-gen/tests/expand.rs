@@ -20,7 +20,7 @@ fn system(n: usize, kind: SolveKind, fixed: &[Option<f64>]) -> Graph {
     });
     let matrix = matrix.collect();
     let right_hand_side = (0..n).map(|k| builder.input(1, k as u32)).collect();
-    let solve = builder.solve(Solve { name: "x".to_owned(), kind, matrix, right_hand_side });
+    let solve = builder.solve(Solve { name: "x".to_owned(), kind, matrix, right_hand_side, attempt: vec![] });
     let nodes = (0..n).map(|k| builder.solution(solve, k as u32)).collect();
     Graph {
         name: "system".to_owned(),

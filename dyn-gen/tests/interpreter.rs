@@ -110,6 +110,7 @@ fn an_evaluator_may_be_used_again_for_another_graph() {
         kind: SolveKind::General,
         matrix: vec![NodeId(2)],
         right_hand_side: vec![NodeId(3)],
+        attempt: vec![],
     });
     first.nodes.push(Node::Solution { solve: 0, element: 0 });
     first.section_of.push(0);

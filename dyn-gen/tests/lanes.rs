@@ -55,6 +55,7 @@ fn rates_are_those_of_the_solution_of_both_kinds() {
             kind,
             matrix: vec![first, c, c, three],
             right_hand_side: vec![one, a],
+            attempt: vec![],
         });
         let nodes = (0..2).map(|element| builder.solution(solve, element)).collect();
         let symbol = |name: &str| common::text::scalar(name, false);

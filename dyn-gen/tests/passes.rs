@@ -286,6 +286,7 @@ fn expand_writes_a_symmetric_system_out() {
         kind: dyn_gen::graph::SolveKind::SymmetricPositiveDefinite,
         matrix: vec![nodes[0], nodes[1], nodes[1], nodes[2]],
         right_hand_side: vec![nodes[3], nodes[4]],
+        attempt: vec![],
     });
     graph.nodes.extend([0, 1].map(|element| Node::Solution { solve: 0, element }));
     graph.section_of.extend([0, 0]);

@@ -30,7 +30,49 @@ pub trait Scalar:
     /// Solves `matrix * x = right_hand_side` with pivoting; `matrix` is row-major. See
     /// [`solve::solve_general`].
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N];
+
+    /// `attempt` if the residual of each row is small beside the root of the sum of its terms' squares, else
+    /// [`solve_general`](Self::solve_general); in lanes each for itself. See [`solve::solve_after_attempt`].
+    fn unless_wrong<const N: usize>(
+        attempt: &[Self; N],
+        residuals: &[Self; N],
+        squares: &[Self; N],
+        matrix: &[[Self; N]; N],
+        right_hand_side: &[Self; N],
+    ) -> [Self; N];
 }
+
+/// [`Scalar::unless_wrong`] of single numbers.
+macro_rules! unless_wrong {
+    ($number:ident) => {
+        #[inline(always)]
+        fn unless_wrong<const N: usize>(
+            attempt: &[Self; N],
+            residuals: &[Self; N],
+            squares: &[Self; N],
+            matrix: &[[Self; N]; N],
+            right_hand_side: &[Self; N],
+        ) -> [Self; N] {
+            const MOST: $number = solve::MOST_RESIDUAL as $number * $number::EPSILON;
+            let mut right = true;
+            for row in 0..N {
+                right &= residuals[row] * residuals[row] < MOST * MOST * squares[row];
+            }
+            if right {
+                *attempt
+            } else {
+                seldom();
+                // Copies: what elimination reads lies in memory, what was examined may stay in registers.
+                let (matrix, right_hand_side) = (*matrix, *right_hand_side);
+                Self::solve_general(&matrix, &right_hand_side)
+            }
+        }
+    };
+}
+
+/// What leads here is seldom taken.
+#[cold]
+fn seldom() {}
 
 /// A fused multiply-add is one instruction or a slow call of a library: it is used only where it is an instruction.
 macro_rules! multiply_add_as_compiled {
@@ -64,6 +106,8 @@ impl Scalar for f64 {
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         solve::by_elimination(matrix, right_hand_side)
     }
+
+    unless_wrong!(f64);
 }
 
 impl Scalar for f32 {
@@ -88,6 +132,8 @@ impl Scalar for f32 {
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         solve::by_elimination(matrix, right_hand_side)
     }
+
+    unless_wrong!(f32);
 }
 
 /// Square root; NaN below zero.

@@ -68,6 +68,10 @@
 //! actuators lie along the legs. All implement the traits in [`kernels`], one trait per function, as does what
 //! the generator writes for your platform; [`Hexapod`] works with any of them.
 //!
+//! For many calls with the same parameters, `Hexapod::new(Uhp { parameters }.prepared())`: a [`models::PreparedUhp`] has
+//! computed what follows from its parameters alone, and its functions in lanes need not gather them. Its parameters cannot be
+//! changed: other parameters make another one, so that nothing can be out of date.
+//!
 //! # What is checked, what is not
 //!
 //! Checked calls are the methods of [`Hexapod`], which lists what they refuse. The traits in [`kernels`] and
@@ -154,7 +158,7 @@ pub use state::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 
 /// The committed models, generated from `platforms/uhp_2016.toml`.
 pub mod models {
-    pub use crate::generated::uhp::{self, Parameters, Uhp};
+    pub use crate::generated::uhp::{self, Parameters, PreparedUhp, Uhp};
     pub use crate::generated::uhp_2016::{self, Uhp2016};
-    pub use crate::generated::ups::{self, Ups};
+    pub use crate::generated::ups::{self, PreparedUps, Ups};
 }

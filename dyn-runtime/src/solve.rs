@@ -4,7 +4,12 @@
 //! rows in newtons beside rows in newton metres do not disturb the choice. Growth stays below 2^(N-1), 32 for
 //! six unknowns.
 
+mod attempt;
+
 use core::mem;
+
+pub(crate) use attempt::MOST_RESIDUAL;
+pub use attempt::{solve_after_attempt, solve_after_attempt_in_lanes};
 
 use crate::float::Scalar;
 use crate::real::Real;

@@ -175,6 +175,32 @@ fn both_models_stand_behind_one_interface() {
     }
 }
 
+/// The same operations; multiply-adds of the preparation may be rounded otherwise.
+#[test]
+fn a_prepared_model_is_the_model() {
+    let model = Uhp { parameters: table_1() };
+    let (prepared, model) = (Hexapod::new(model.prepared()), Hexapod::new(model));
+    let mut random = Pcg64::seed_from_u64(12);
+    for _ in 0..200 {
+        let base = random_base(&mut random);
+        let platform = random_platform(&mut random, &base);
+        let acceleration = random_acceleration(&mut random);
+        let wrench = random_wrench(&mut random);
+        let call = |forces: Vector6<f64>, other: Vector6<f64>| {
+            assert!((forces - other).amax() <= 1e-11 * forces.amax(), "{forces} and {other}");
+        };
+        let (forces, back) =
+            forces_and_acceleration(&model, &base, &platform, &acceleration, &wrench).unwrap();
+        let (same, same_back) =
+            forces_and_acceleration(&prepared, &base, &platform, &acceleration, &wrench).unwrap();
+        call(forces, same);
+        call(back.to_vector(), same_back.to_vector());
+        let masses = model.mass_matrix_p(&base, &platform).unwrap();
+        assert_eq!(masses, prepared.mass_matrix_p(&base, &platform).unwrap());
+    }
+    assert_eq!(prepared.model.model(), &Uhp { parameters: table_1() });
+}
+
 /// A name that the caller of `from_fn` forgets, or fills with what is no number.
 #[test]
 fn forgotten_geometry_is_not_called_out_of_reach() {

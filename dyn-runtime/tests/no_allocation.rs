@@ -79,8 +79,8 @@ fn functions() -> Vec<&'static str> {
     let model = include_str!("../src/generated/uhp.rs");
     let names =
         model.split("\npub fn ").skip(1).map(|text| text.split_once(['<', '(']).expect("a signature").0);
-    // Methods choose between a function and the same in lanes.
-    names.filter(|name| !name.ends_with("_in_lanes")).collect()
+    // Methods choose between a function and the same in lanes; `prepared()` calls what prepares some.
+    names.filter(|name| !name.ends_with("_in_lanes") && !name.starts_with("prepare_")).collect()
 }
 
 /// One trait that stands for those named.
@@ -332,6 +332,8 @@ fn the_baked_model_asks_for_no_memory() {
 #[test]
 fn the_model_with_parameters_at_run_time_asks_for_no_memory() {
     assert_no_requests(at_run_time());
+    assert_no_requests(at_run_time().prepared());
+    assert_eq!(requests(|| _ = black_box(at_run_time().prepared())), 0);
     let filling = requests(|| {
         black_box(Parameters::from_fn(|_, values| values.fill(1.0)));
     });

@@ -54,6 +54,22 @@ impl Scalar for Pair {
         });
         std::array::from_fn(|row| Self([first[row], second[row]]))
     }
+
+    fn unless_wrong<const N: usize>(
+        attempt: &[Self; N],
+        residuals: &[Self; N],
+        squares: &[Self; N],
+        matrix: &[[Self; N]; N],
+        right_hand_side: &[Self; N],
+    ) -> [Self; N] {
+        let [first, second] = [0, 1].map(|lane| {
+            let [attempt, residuals, squares, right_hand_side] =
+                [attempt, residuals, squares, right_hand_side].map(|numbers| numbers.map(|x| x.0[lane]));
+            let matrix = matrix.map(|row| row.map(|x| x.0[lane]));
+            f64::unless_wrong(&attempt, &residuals, &squares, &matrix, &right_hand_side)
+        });
+        std::array::from_fn(|row| Self([first[row], second[row]]))
+    }
 }
 
 /// A base in motion and a platform near home above it.

@@ -3,7 +3,10 @@
 
 use dyn_runtime::jacobian_reciprocal_condition;
 use dyn_runtime::nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
-use dyn_runtime::solve::{reciprocal_condition, solve_general};
+use dyn_runtime::solve::{
+    reciprocal_condition, solve_after_attempt, solve_after_attempt_in_lanes, solve_general,
+};
+use dyn_runtime::triple::{self, Portable, Triple};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -53,6 +56,68 @@ fn any_order_of_rows_and_units_will_do() {
         let x = solve_general(&matrix, &right_hand_side);
         assert!(residual_in_roundings(&matrix, &x, &right_hand_side) < 50.0, "case {case}");
     }
+}
+
+/// An attempt in lanes, columns 2, 4, 6 first.
+struct Attempt<'a>([f64; 6], &'a [[f64; 6]; 6], [f64; 6], &'a mut [f64; 6]);
+
+impl triple::Call<f64> for Attempt<'_> {
+    #[inline(always)]
+    fn in_lanes<P: Triple<Lane = f64>>(self) {
+        let sides =
+            |row: &[f64; 6]| [P::triple([row[1], row[3], row[5]]), P::triple([row[0], row[2], row[4]])];
+        let rows = self.1.map(|row| sides(&row));
+        *self.3 = solve_after_attempt_in_lanes::<P>(&sides(&self.0), &rows, &self.2, &[1, 3, 5, 0, 2, 4]);
+    }
+
+    fn flat(self) {
+        self.in_lanes::<Portable<f64>>();
+    }
+}
+
+/// Whatever the attempt, the solution is as good as elimination's.
+#[test]
+fn attempts_count_where_they_solve_the_system() {
+    let mut random = Pcg64::seed_from_u64(5);
+    let (mut taken, mut refused) = (0, 0);
+    for case in 0..4_000 {
+        let mut matrix = random_matrix(&mut random);
+        for row in &mut matrix {
+            let unit = 10_f64.powi(random.random_range(-12..12));
+            row.iter_mut().for_each(|element| *element *= unit);
+        }
+        let exact: [f64; 6] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+        let right_hand_side: [f64; 6] = (to_nalgebra(&matrix) * Vector6::from(exact)).into();
+        let error = 10_f64.powi(-10 - case % 8);
+        let attempt = exact.map(|x| x * (1.0 + random.random_range(-error..error)));
+        let by_elimination = solve_general(&matrix, &right_hand_side);
+        let mut in_lanes = [0.0; 6];
+        triple::run(Attempt(attempt, &matrix, right_hand_side, &mut in_lanes));
+        for x in [solve_after_attempt(&attempt, &matrix, &right_hand_side), in_lanes] {
+            assert!(residual_in_roundings(&matrix, &x, &right_hand_side) < 50.0, "case {case}");
+            match x {
+                x if x == attempt => taken += 1,
+                x => {
+                    assert_eq!(x, by_elimination, "case {case}");
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(taken > 1_000 && refused > 4_000, "{taken} taken, {refused} refused");
+}
+
+#[test]
+fn attempts_without_numbers_or_with_too_large_ones_are_refused() {
+    let matrix: [[f64; 6]; 6] = Matrix6::identity().into();
+    let right_hand_side = [1e200, 1.0, 2.0, 3.0, 4.0, 5.0];
+    for wrong in [f64::NAN, f64::INFINITY, 0.0, 1e300, -1e200] {
+        let attempt = [wrong, 1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(solve_after_attempt(&attempt, &matrix, &right_hand_side), right_hand_side);
+    }
+    assert_eq!(solve_after_attempt(&[0.0; 6], &matrix, &[0.0; 6]), [0.0; 6]);
+    let singular = [[1.0; 6]; 6];
+    assert!(solve_after_attempt(&[f64::NAN; 6], &singular, &right_hand_side).iter().any(|x| !x.is_finite()));
 }
 
 #[test]

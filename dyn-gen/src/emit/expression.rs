@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use super::EmitError;
 use super::names::{
-    CONSTANT, CONSTANT_IN_LANES, LANE, PARAMETERS, SCALARS_IN_LANES, SOLVE_GENERAL, SPLAT, SQRT, TRIPLE,
-    identifier,
+    CONSTANT, CONSTANT_IN_LANES, LANE, LOAD, PARAMETERS, SCALARS_IN_LANES, SOLVE_AFTER_ATTEMPT,
+    SOLVE_AFTER_ATTEMPT_IN_LANES, SOLVE_GENERAL, SPLAT, SQRT, TRIPLE, identifier,
 };
 use super::placement::Place;
 use super::schedule::{Statement, Step, Value};
 use super::signature::Signature;
 use crate::graph::{Graph, Node, NodeId, Op, SolveKind, Symbol};
+use crate::pack::{PREPARED, row};
 
 /// Writes the values of one graph.
 pub struct Expressions<'a> {
@@ -178,6 +179,10 @@ impl<'a> Expressions<'a> {
                     self.write_operand(text, id, b, right)
                 })?;
             }
+            Node::Lanes(lanes) if row(self.graph, lanes).is_some() => {
+                let row = row(self.graph, lanes).unwrap_or_default();
+                put(text, format_args!("{SCALARS_IN_LANES}::{LOAD}(&{PREPARED}[{row}])"));
+            }
             Node::Lanes(lanes) => {
                 put(text, format_args!("{SCALARS_IN_LANES}::{TRIPLE}(["));
                 self.write_list(text, &lanes, |text, lane| self.write_value(text, lane, Binding::Sum))?;
@@ -203,23 +208,85 @@ impl<'a> Expressions<'a> {
         Ok(())
     }
 
-    /// `solve_general(&[[...], ...], &[...])`, a row of the matrix on a line.
+    /// `solve_general(&[[...], ...], &[...])`, a row of the matrix on a line, after the attempt if there is one.
     fn write_solution(&self, text: &mut String, solve: usize) -> Result<(), EmitError> {
         let system = &self.graph.solves[solve];
         if system.kind == SolveKind::SymmetricPositiveDefinite {
             let (function, solve) = (self.graph.name.clone(), system.name.clone());
             return Err(EmitError::SymmetricSolve { function, solve });
         }
+        let n = system.right_hand_side.len();
         let value = |text: &mut String, id| self.write_value(text, id, Binding::Sum);
-        put(text, format_args!("{SOLVE_GENERAL}(\n    &[\n"));
-        for row in system.matrix.chunks(system.right_hand_side.len()) {
+        let order = self.places_in_lanes(&system.attempt);
+        let row = |text: &mut String, nodes: &[NodeId]| match &order {
+            Some(order) => self.write_triples(text, nodes, order),
+            None => self.write_list(text, nodes, value),
+        };
+        match (system.attempt.is_empty(), &order) {
+            (true, _) => put(text, format_args!("{SOLVE_GENERAL}(\n")),
+            (false, None) => put(text, format_args!("{SOLVE_AFTER_ATTEMPT}(\n    &[")),
+            (false, Some(_)) => {
+                put(text, format_args!("{SOLVE_AFTER_ATTEMPT_IN_LANES}::<{SCALARS_IN_LANES}>(\n    &["));
+            }
+        }
+        if !system.attempt.is_empty() {
+            row(text, &system.attempt)?;
+            text.push_str("],\n");
+        }
+        text.push_str("    &[\n");
+        for nodes in system.matrix.chunks(n) {
             text.push_str("        [");
-            self.write_list(text, row, value)?;
+            row(text, nodes)?;
             text.push_str("],\n");
         }
         text.push_str("    ],\n    &[");
         self.write_list(text, &system.right_hand_side, value)?;
-        text.push_str("],\n)");
+        text.push_str("],\n");
+        if let Some(order) = order {
+            put(text, format_args!("    &{order:?},\n"));
+        }
+        text.push(')');
+        Ok(())
+    }
+
+    /// Which of six values stand in the lanes of two others: those of the first, in order, and those of the second.
+    fn places_in_lanes(&self, values: &[NodeId]) -> Option<[usize; 6]> {
+        let lanes = values.iter().map(|id| match self.graph.nodes[id.index()] {
+            Node::Lane(of, lane) => Some((of, lane)),
+            _ => None,
+        });
+        let lanes: [(NodeId, u8); 6] = lanes.collect::<Option<Vec<_>>>()?.try_into().ok()?;
+        let mut order = [0, 1, 2, 3, 4, 5];
+        order.sort_by_key(|place| lanes[*place]);
+        let in_order =
+            (0..6).map(|k| lanes[order[k]]).zip([0, 1, 2, 0, 1, 2]).all(|((_, lane), k)| lane == k);
+        (in_order && lanes[order[0]].0 == lanes[order[2]].0 && lanes[order[3]].0 == lanes[order[5]].0)
+            .then_some(order)
+    }
+
+    /// Six values as two in lanes.
+    fn write_triples(
+        &self,
+        text: &mut String,
+        values: &[NodeId],
+        order: &[usize; 6],
+    ) -> Result<(), EmitError> {
+        for (side, places) in order.chunks(3).enumerate() {
+            if side > 0 {
+                text.push_str(", ");
+            }
+            let three = [0, 1, 2].map(|k: usize| values[places[k]]);
+            match three.map(|id| self.graph.nodes[id.index()]) {
+                [Node::Lane(a, 0), Node::Lane(b, 1), Node::Lane(c, 2)] if a == b && b == c => {
+                    self.write_value(text, a, Binding::Sum)?;
+                }
+                _ => {
+                    put(text, format_args!("{SCALARS_IN_LANES}::{TRIPLE}(["));
+                    self.write_list(text, &three, |text, id| self.write_value(text, id, Binding::Sum))?;
+                    text.push_str("])");
+                }
+            }
+        }
         Ok(())
     }
 

@@ -8,6 +8,7 @@
 //! | `placement`, `schedule`, `blocks` | which values get a name, in which order, in which block |
 //! | `function`, `model`, `kernels`, `header` | a free function; the files and their first lines |
 //! | `generic` | a model's functions for any type of number, its parameters in lanes |
+//! | `prepared` | a model with what follows from its parameters alone |
 //! | `setters` | checked access to the parameters of a model |
 //! | `limits` | what the platform's actuators and joints may do |
 //! | `names`, `print` | identifiers; items to text |
@@ -24,6 +25,7 @@ mod limits;
 mod model;
 mod names;
 mod placement;
+mod prepared;
 mod print;
 mod schedule;
 mod setters;

@@ -10,8 +10,9 @@ use super::names::{PARAMETERS, SCALAR, SCALARS_IN_LANES, check_type_names, ident
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
-use super::{Limits, generic, limits, setters};
+use super::{Limits, generic, limits, prepared, setters};
 use crate::graph::Symbol;
+use crate::pack::PREPARED;
 
 /// A type of number that a model computes with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -65,6 +66,8 @@ pub struct Model<'a> {
     pub functions: &'a [String],
     /// Names of the functions that also exist in lanes.
     pub in_lanes: &'a [String],
+    /// Those of them that are also printed in two parts, with the shape of what the first hands to the second.
+    pub prepared: &'a [(String, Vec<usize>)],
 }
 
 /// Text of the model's file.
@@ -98,7 +101,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         #[allow(unused_imports)]
         use #runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
-        use #runtime::solve::solve_general;
+        use #runtime::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
         #[allow(unused_imports)]
         use #runtime::triple::Triple;
     }];
@@ -133,6 +136,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         }
     }
     items.extend(generic::items(model)?);
+    items.extend(prepared::items(model)?);
     Ok(items)
 }
 
@@ -203,21 +207,11 @@ fn implementation(model: &Model, signature: &Signature, scalar: Scalar) -> Resul
     let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
     let in_lanes = scalar == Scalar::F64 && model.in_lanes.contains(&signature.name);
     let body = if in_lanes {
-        let (given, parameters) = match model.parameters.is_empty() {
-            true => (None, None),
-            false => (Some(quote!(let #field = &self.#field;)), Some(quote!(#field: Parameters<#number>,))),
-        };
-        let inputs = signature.inputs.iter().zip(&names);
-        let outputs = signature.outputs.iter().zip(&names[signature.inputs.len()..]);
-        let typed = |(symbol, name): (&Symbol, &proc_macro2::Ident)| {
-            let array = array_type(&quote!(#number), &symbol.shape);
-            quote!(#name: #array)
-        };
-        let (inputs, outputs) = (inputs.map(typed), outputs.map(typed));
-        let function_in_lanes = name_in_lanes(&function);
+        let given = (!model.parameters.is_empty()).then(|| quote!(let #field = &self.#field;));
+        let call = call_in_lanes(model, signature, scalar, None)?;
         quote! {
             #given
-            #runtime::single_state!(#function_in_lanes, #function; #parameters #(#inputs),*; #(#outputs),*);
+            #call
         }
     } else {
         // `self::`: an output may have the function's name.
@@ -229,6 +223,44 @@ fn implementation(model: &Model, signature: &Signature, scalar: Scalar) -> Resul
             #[inline]
             fn #function(&self, #(#arguments),*) {
                 #body
+            }
+        }
+    })
+}
+
+/// The call of a function in lanes, or without where there are no registers for them; of its second part with the array
+/// `prepared` of this type, if it is given.
+pub(super) fn call_in_lanes(
+    model: &Model,
+    signature: &Signature,
+    scalar: Scalar,
+    prepared: Option<&TokenStream>,
+) -> Result<TokenStream, EmitError> {
+    let runtime = model.runtime.tokens();
+    let function = signature.identifier()?;
+    let number = format_ident!("{}", scalar.name());
+    let names = signature.argument_names()?;
+    let field = format_ident!("{PARAMETERS}");
+    let parameters = (!model.parameters.is_empty()).then(|| quote!(#field: Parameters<#number>,));
+    let inputs = signature.inputs.iter().zip(&names);
+    let outputs = signature.outputs.iter().zip(&names[signature.inputs.len()..]);
+    let typed = |(symbol, name): (&Symbol, &proc_macro2::Ident)| {
+        let array = array_type(&quote!(#number), &symbol.shape);
+        quote!(#name: #array)
+    };
+    let (inputs, outputs) = (inputs.map(typed), outputs.map(typed));
+    Ok(match prepared {
+        None => {
+            let in_lanes = name_in_lanes(&function);
+            quote!(#runtime::single_state!(#in_lanes, #function; #parameters #(#inputs),*; #(#outputs),*);)
+        }
+        Some(array) => {
+            let in_lanes = name_in_lanes(&format_ident!("{function}_{PREPARED}"));
+            let prepared = format_ident!("{PREPARED}");
+            quote! {
+                #runtime::single_state!(
+                    #in_lanes, #function; #parameters #(#inputs),*; only in lanes #prepared: #array; #(#outputs),*
+                );
             }
         }
     })

@@ -24,10 +24,16 @@ pub const CONSTANT_IN_LANES: &str = "w";
 pub const TRIPLE: &str = "triple";
 /// The imported access to a lane.
 pub const LANE: &str = "lane";
+/// The imported reading of lanes that stand side by side in memory.
+pub const LOAD: &str = "load";
 /// The imported copy of a number to all lanes.
 pub const SPLAT: &str = "splat";
 /// The imported pivoted linear solver.
 pub const SOLVE_GENERAL: &str = "solve_general";
+/// The imported linear solver that examines an attempt.
+pub const SOLVE_AFTER_ATTEMPT: &str = "solve_after_attempt";
+/// The same in lanes.
+pub const SOLVE_AFTER_ATTEMPT_IN_LANES: &str = "solve_after_attempt_in_lanes";
 
 /// `name` as an identifier of `function`, refused when it is not one or would hide a name the printer uses itself.
 pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
@@ -35,7 +41,8 @@ pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
     if syn::parse_str::<Ident>(name).is_err() {
         return refuse("it is not an identifier of Rust");
     }
-    if [PARAMETERS, CONSTANT, CONSTANT_IN_LANES, TRIPLE, LANE, SPLAT, SQRT, SOLVE_GENERAL].contains(&name)
+    if [PARAMETERS, CONSTANT, CONSTANT_IN_LANES, TRIPLE, LANE, LOAD, SPLAT, SQRT].contains(&name)
+        || [SOLVE_GENERAL, SOLVE_AFTER_ATTEMPT, SOLVE_AFTER_ATTEMPT_IN_LANES].contains(&name)
         || MULTIPLY_ADDITIONS.contains(&name)
     {
         return refuse("the generated code uses it itself");

@@ -113,8 +113,8 @@ fn uses(graph: &Graph) -> Vec<Uses> {
             let solve = solve as usize;
             if !std::mem::replace(&mut solved[solve], true) {
                 let solve = &graph.solves[solve];
-                for operand in solve.matrix.iter().chain(&solve.right_hand_side) {
-                    add(&mut uses, *operand, false);
+                for operand in solve.operands() {
+                    add(&mut uses, operand, false);
                 }
             }
         }

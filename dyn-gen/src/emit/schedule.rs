@@ -96,7 +96,7 @@ impl Units {
                 if places[index] != Place::Unused && unit_of_solve[solve] == usize::MAX {
                     let mut reads = Vec::new();
                     let system = &graph.solves[solve];
-                    for &operand in system.matrix.iter().chain(&system.right_hand_side) {
+                    for operand in system.operands() {
                         values_of(graph, places, operand, &mut reads);
                     }
                     unit_of_solve[solve] = statements.len();

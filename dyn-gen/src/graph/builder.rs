@@ -148,6 +148,7 @@ impl Builder {
         let same = |known: &Solve| {
             known.kind == solve.kind
                 && known.right_hand_side == solve.right_hand_side
+                && known.attempt == solve.attempt
                 && match solve.kind {
                     SolveKind::General => known.matrix == solve.matrix,
                     SolveKind::SymmetricPositiveDefinite => lower(known).eq(lower(&solve)),

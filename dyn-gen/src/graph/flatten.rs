@@ -73,6 +73,7 @@ impl Program {
                         kind: *kind,
                         matrix: known[matrix].clone(),
                         right_hand_side: known[right_hand_side].clone(),
+                        attempt: Vec::new(),
                     });
                     builder.enter_section(&symbol.meaning);
                     let elements = (0..symbol.len()).map(|element| builder.solution(solve, element as u32));

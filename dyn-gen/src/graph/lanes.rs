@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::interpreter::{Environment, solve_general, solve_symmetric};
+use super::interpreter::{Environment, is_solved_by, solve_general, solve_symmetric};
 use super::{Graph, Node, NodeId, Op, Output, Solve, SolveKind};
 
 /// States evaluated at a time.
@@ -15,7 +15,7 @@ pub trait Number: Copy {
     /// The operation on these operands, as many as it has count; products are rounded before they are added.
     fn apply(op: Op, a: Self, b: Self, c: Self) -> Self;
     /// The solution of a linear system, row-major, lane by lane.
-    fn solve(kind: SolveKind, matrix: &[Self], right_hand_side: &[Self]) -> Vec<Self>;
+    fn solve(kind: SolveKind, matrix: &[Self], right_hand_side: &[Self], attempt: &[Self]) -> Vec<Self>;
 }
 
 /// A value in every lane: the bits of [`Op::apply`] with products rounded separately.
@@ -42,13 +42,20 @@ impl Number for Values {
         }
     }
 
-    fn solve(kind: SolveKind, matrix: &[Values], right_hand_side: &[Values]) -> Vec<Values> {
+    fn solve(
+        kind: SolveKind,
+        matrix: &[Values],
+        right_hand_side: &[Values],
+        attempt: &[Values],
+    ) -> Vec<Values> {
         let mut solution = vec![[0.0; LANES]; right_hand_side.len()];
         let mut pivots = Vec::new();
         for lane in 0..LANES {
             let mut matrix: Vec<f64> = matrix.iter().map(|entry| entry[lane]).collect();
             let mut x: Vec<f64> = right_hand_side.iter().map(|entry| entry[lane]).collect();
+            let attempt: Vec<f64> = attempt.iter().map(|entry| entry[lane]).collect();
             match kind {
+                _ if is_solved_by(&attempt, &matrix, &x) => x = attempt,
                 SolveKind::General => solve_general(&mut matrix, &mut x, &mut pivots),
                 SolveKind::SymmetricPositiveDefinite => solve_symmetric(&mut matrix, &mut x),
             }
@@ -91,7 +98,7 @@ impl Number for Rates {
         Rates { value, rate }
     }
 
-    fn solve(kind: SolveKind, matrix: &[Rates], right_hand_side: &[Rates]) -> Vec<Rates> {
+    fn solve(kind: SolveKind, matrix: &[Rates], right_hand_side: &[Rates], attempt: &[Rates]) -> Vec<Rates> {
         let n = right_hand_side.len();
         // Of a symmetric system only the lower triangle is read.
         let entry = |row: usize, column: usize| match kind {
@@ -100,7 +107,8 @@ impl Number for Rates {
         };
         let values: Vec<Values> = matrix.iter().map(|entry| entry.value).collect();
         let right: Vec<Values> = right_hand_side.iter().map(|entry| entry.value).collect();
-        let x = Values::solve(kind, &values, &right);
+        let attempt: Vec<Values> = attempt.iter().map(|entry| entry.value).collect();
+        let x = Values::solve(kind, &values, &right, &attempt);
         // A x' = b' - A' x
         let mut remainder: Vec<Values> = right_hand_side.iter().map(|entry| entry.rate).collect();
         for (row, remainder) in remainder.iter_mut().enumerate() {
@@ -109,7 +117,7 @@ impl Number for Rates {
                 remainder.iter_mut().zip(rate.iter().zip(x)).for_each(|(sum, (rate, x))| *sum -= rate * x);
             }
         }
-        let rates = Values::solve(kind, &values, &remainder);
+        let rates = Values::solve(kind, &values, &remainder, &[]);
         x.into_iter().zip(rates).map(|(value, rate)| Rates { value, rate }).collect()
     }
 }
@@ -190,5 +198,5 @@ impl<N: Number> LaneEvaluator<N> {
 
 fn solution<N: Number>(solve: &Solve, values: &[N]) -> Vec<N> {
     let at = |ids: &[NodeId]| ids.iter().map(|id| values[id.index()]).collect::<Vec<_>>();
-    N::solve(solve.kind, &at(&solve.matrix), &at(&solve.right_hand_side))
+    N::solve(solve.kind, &at(&solve.matrix), &at(&solve.right_hand_side), &at(&solve.attempt))
 }

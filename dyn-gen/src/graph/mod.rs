@@ -20,7 +20,9 @@ pub use count::OperationCount;
 pub use flatten::Group;
 pub use format::FormatError;
 pub(crate) use hasher::NodeHash;
-pub use interpreter::{Environment, EvaluationError, Evaluator, solve_general, solve_symmetric};
+pub use interpreter::{
+    Environment, EvaluationError, Evaluator, is_solved_by, solve_general, solve_symmetric,
+};
 pub use lanes::{Batch, LANES, LaneEvaluator, Number, Rates, Values};
 pub use ops::{OPS, Op, OpInfo, Rounding};
 pub use program::{Declaration, Function, Program, Provenance, Role, Step};
@@ -104,12 +106,20 @@ pub struct Solve {
     pub matrix: Vec<NodeId>,
     /// n.
     pub right_hand_side: Vec<NodeId>,
+    /// The solution (n) as computed without choosing pivots; it counts where it satisfies the system ([`is_solved_by`]), and
+    /// pivots are chosen only where it does not. Empty if there is none.
+    pub attempt: Vec<NodeId>,
 }
 
 impl Solve {
+    /// The nodes the solution depends on, to be replaced by others.
+    pub fn operands_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
+        self.matrix.iter_mut().chain(&mut self.right_hand_side).chain(&mut self.attempt)
+    }
+
     /// The nodes the solution depends on.
     pub fn operands(&self) -> impl Iterator<Item = NodeId> + '_ {
-        self.matrix.iter().chain(&self.right_hand_side).copied()
+        self.matrix.iter().chain(&self.right_hand_side).chain(&self.attempt).copied()
     }
 }
 
@@ -276,7 +286,7 @@ impl Graph {
             }
         }
         for solve in &mut self.solves {
-            solve.matrix.iter_mut().chain(&mut solve.right_hand_side).for_each(redirect);
+            solve.operands_mut().for_each(redirect);
         }
         for output in &mut self.outputs {
             output.nodes.iter_mut().for_each(redirect);

@@ -10,16 +10,22 @@
 //! | `blocks` | writes linear systems out in 3 x 3 blocks, which suit lanes and need two divisions one after the other |
 //! | `sums` | sums over legs: first lane by lane, then across lanes |
 //! | `superword` | finds three alike from their results back to their operands |
+//! | `attempts` | hands solutions in blocks and their systems on as they stand in lanes, for examination at run time |
 //! | `order` | puts operations in the order in which a processor can begin them |
+//! | `hoist` | takes out what follows from parameters at run time alone |
 //! | `unpack` | the same graph without lanes, for evaluation |
 
+mod attempts;
 mod blocks;
+mod hoist;
 mod order;
 mod partition;
 mod sums;
 mod superword;
 mod unpack;
 
+pub(crate) use hoist::row;
+pub use hoist::{Hoisted, PREPARED, hoist};
 pub use partition::Partition;
 pub use unpack::unpack;
 
@@ -54,6 +60,7 @@ pub fn pack(graph: &Graph, groups: Vec<Group>, leg_count: usize, context: &Conte
     };
     let graph = superword::superword(&graph, &groups, context, &partition);
     let graph = run_passes_in_lanes(&graph, context);
+    let graph = attempts::side_by_side(&graph, &partition);
     let graph = if context.runs("order") { order::order(&graph) } else { graph };
     Packed { graph, partition }
 }

@@ -1,7 +1,7 @@
 //! Which legs stand side by side: the blocks of the linear system for the actuators' reactions are made of them.
 
 use crate::graph::{Environment, Evaluator, Graph, Solve, SolveKind, solve_general};
-use crate::passes::{Context, depends_on_parameters};
+use crate::passes::{Context, EVERY_OTHER, depends_on_parameters};
 
 /// Legs in two times three lanes, and how the solve in blocks of them does over the sampled states.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
@@ -13,17 +13,19 @@ pub struct Partition {
     pub growth: f64,
     /// Number of states.
     pub states: usize,
+    /// Whether the solution in blocks is an attempt, because parameters at run time reach the matrix.
+    pub examined: bool,
 }
 
 impl Partition {
     /// The first legs beside each other, then the others; chosen by nothing.
     pub fn in_order(legs: usize) -> Self {
-        Self { legs: (0..legs).collect(), growth: 0.0, states: 0 }
+        Self { legs: (0..legs).collect(), growth: 0.0, states: 0, examined: false }
     }
 }
 
 /// Of the partitions whose first block stays far from singular, the one with the least growth. The legs in order if there is
-/// none, or nothing to choose by: no system, no states, or a matrix that depends on parameters at run time.
+/// none, or nothing to choose by: no system or no states; every other leg if parameters at run time reach the matrix.
 pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
     let in_order = Partition::in_order(legs);
     let system = graph.solves.iter().find(|solve| solve.kind == SolveKind::General);
@@ -31,7 +33,7 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
         return in_order;
     };
     if depends_on_parameters(graph, solve, context) {
-        return in_order;
+        return Partition { legs: EVERY_OTHER.to_vec(), examined: true, ..in_order };
     }
     let references: Vec<Reference> =
         sampled_matrices(graph, solve, context).iter().map(Reference::new).collect();
@@ -41,7 +43,7 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
     let candidates = (0..64_usize).filter(|set| set.count_ones() == 3).map(|set| {
         let (first, second): (Vec<_>, Vec<_>) = (0..6).partition(|leg| set >> leg & 1 == 1);
         let legs = [first, second].concat();
-        Partition { growth: growth(&legs), legs, states: references.len() }
+        Partition { growth: growth(&legs), legs, states: references.len(), examined: false }
     });
     candidates
         .filter(|partition| stays_regular(&references, &partition.legs))

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::partition::Partition;
-use crate::graph::{Builder, Graph, Group, LANE_COUNT, Node, NodeId, Op, Output, Solve};
+use crate::graph::{Builder, Graph, Group, LANE_COUNT, Node, NodeId, Op, Output};
 use crate::passes::{Context, known_values, simplified};
 
 /// Nodes of the graph without lanes that stand side by side.
@@ -133,10 +133,9 @@ impl<'a> Words<'a> {
         if let Some(known) = self.solves[index] {
             return known;
         }
-        let Solve { name, kind, matrix, right_hand_side } = self.graph.solves[index].clone();
-        let matrix = matrix.into_iter().map(|id| self.scalar(id)).collect();
-        let right_hand_side = right_hand_side.into_iter().map(|id| self.scalar(id)).collect();
-        let solve = self.builder.solve(Solve { name, kind, matrix, right_hand_side });
+        let mut solve = self.graph.solves[index].clone();
+        solve.operands_mut().for_each(|id| *id = self.scalar(*id));
+        let solve = self.builder.solve(solve);
         self.solves[index] = Some(solve);
         solve
     }

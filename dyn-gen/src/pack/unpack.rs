@@ -14,7 +14,7 @@ pub fn unpack(graph: &Graph) -> Graph {
             Node::Lane(a, lane) => [images[a.index()][lane as usize]; LANE_COUNT],
             Node::Solution { solve, element } => {
                 let mut system = graph.solves[solve as usize].clone();
-                for id in system.matrix.iter_mut().chain(&mut system.right_hand_side) {
+                for id in system.operands_mut() {
                     *id = images[id.index()][0];
                 }
                 let solve = builder.solve(system);

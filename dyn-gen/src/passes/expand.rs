@@ -1,13 +1,15 @@
 //! Writes linear systems out as arithmetic.
 
 use super::Context;
+use super::blocks::{EVERY_OTHER, attempted};
 use super::pivot::{PivotOrder, choose_order};
 use super::rewrite::Images;
 use super::share::{Algebra, shared};
 use crate::graph::{Builder, Environment, Evaluator, Graph, Node, NodeId, Solve, SolveKind};
 
 /// Expands symmetric positive definite solves, stable in any order, and general ones whose matrix depends on no parameter, in
-/// the pivot order of least growth over `context.states`. Any other general solve is left for pivoting at run time.
+/// the pivot order of least growth over `context.states`. Any other general solve of six equations gets an attempt in blocks,
+/// and is left with it for pivoting at run time.
 pub fn expand(graph: &Graph, context: &Context, orders: &mut Vec<PivotOrder>) -> Graph {
     if graph.solves.is_empty() {
         return graph.clone();
@@ -56,6 +58,9 @@ fn expanded(
                 let solution = general(builder, solve, &order);
                 orders.push(order);
                 solution
+            }
+            None if solve.right_hand_side.len() == EVERY_OTHER.len() => {
+                attempted(builder, solve, &EVERY_OTHER).0
             }
             None => {
                 let n = solve.right_hand_side.len() as u32;

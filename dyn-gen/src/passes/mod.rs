@@ -11,6 +11,7 @@
 //! after adding `0.0`, which makes one zero of both.
 
 mod bake;
+mod blocks;
 mod chain;
 mod expand;
 mod fold;
@@ -28,6 +29,7 @@ mod simplify;
 use crate::graph::{Environment, Graph, OperationCount};
 
 pub(crate) use bake::known_values;
+pub(crate) use blocks::{EVERY_OTHER, attempted, in_blocks, symmetric_triples};
 pub(crate) use expand::depends_on_parameters;
 pub use pivot::PivotOrder;
 pub(crate) use rewrite::Images;

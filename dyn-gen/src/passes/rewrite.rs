@@ -49,6 +49,7 @@ impl Images {
             kind: solve.kind,
             matrix: solve.matrix.iter().map(|node| self.of(*node)).collect(),
             right_hand_side: solve.right_hand_side.iter().map(|node| self.of(*node)).collect(),
+            attempt: solve.attempt.iter().map(|node| self.of(*node)).collect(),
         }
     }
 

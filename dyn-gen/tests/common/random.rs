@@ -86,7 +86,8 @@ fn system(source: &mut Source, builder: &mut Builder, nodes: &[NodeId]) -> Vec<N
         (0..3).for_each(|k| matrix[4 * k] = sum);
         (matrix[1], matrix[2], matrix[5]) = (matrix[3], matrix[6], matrix[7]);
     }
-    let solve = builder.solve(Solve { name: "solution".to_owned(), kind, matrix, right_hand_side });
+    let solve =
+        builder.solve(Solve { name: "solution".to_owned(), kind, matrix, right_hand_side, attempt: vec![] });
     (0..3).map(|element| builder.solution(solve, element)).collect()
 }
 

@@ -105,6 +105,7 @@ fn parameters_and_a_linear_system_reach_the_function() {
         kind: SolveKind::General,
         matrix: vec![sum, inertia, deep, mass],
         right_hand_side: torque.to_vec(),
+        attempt: vec![],
     });
     let reaction = [builder.solution(index, 0), builder.solution(index, 1)];
     let difference = builder.binary(Op::Sub, reaction[0], reaction[1]);

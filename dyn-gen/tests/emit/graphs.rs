@@ -68,6 +68,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         signatures: &signatures,
         functions: &functions,
         in_lanes: &[],
+        prepared: &[],
     };
     model_file(&header, &model).expect("a printable model")
 }

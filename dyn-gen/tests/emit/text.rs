@@ -91,7 +91,7 @@ fn a_model_file() {
         #[allow(unused_imports)]
         use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
-        use crate::solve::solve_general;
+        use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
         #[allow(unused_imports)]
         use crate::triple::Triple;
 
@@ -264,6 +264,7 @@ fn what_cannot_be_printed_is_refused() {
         kind: SolveKind::SymmetricPositiveDefinite,
         matrix: vec![torque],
         right_hand_side: vec![torque],
+        attempt: vec![],
     });
     let solution = builder.solution(index, 0);
     let inputs = vec![symbol("torque", &[], false)];

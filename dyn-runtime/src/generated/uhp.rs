@@ -23,10 +23,10 @@
 // passive_forces                  1257         789
 // bias                            2107        1327
 // equation_of_motion              7338        4575
-// inverse_dynamics                2160        1375
+// inverse_dynamics                2160        1527
 // actuator_geometry                591         381
-// control                         3194        2082
-// passive_inverse_dynamics        2808        1783
+// control                         3194        2234
+// passive_inverse_dynamics        2808        1935
 // base_reaction                   2412        1543
 // forward_dynamics                3003        1934
 // energy                          1664         996
@@ -34,7 +34,7 @@
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use crate::solve::solve_general;
+use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
 #[allow(unused_imports)]
 use crate::triple::Triple;
 
@@ -2586,6 +2586,1436 @@ impl<S> crate::kernels::generic::ForwardDynamics for Uhp<S> {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl<S> crate::kernels::generic::Energy for Uhp<S> {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+/// [`Uhp`] for many calls with the same parameters: what follows from them alone is
+/// computed already, for functions in lanes.
+///
+/// Its parameters stay as they are; others make another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreparedUhp {
+    model: Uhp,
+    matrices: [[f64; 4]; 76],
+    inverse_dynamics: [[f64; 4]; 38],
+    actuator_geometry: [[f64; 4]; 20],
+    control: [[f64; 4]; 50],
+    forward_dynamics: [[f64; 4]; 54],
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl Uhp {
+    /// The model with everything computed that follows from its parameters alone.
+    pub fn prepared(self) -> PreparedUhp {
+        let mut prepared = PreparedUhp {
+            model: self,
+            matrices: [[0.0; 4]; 76],
+            inverse_dynamics: [[0.0; 4]; 38],
+            actuator_geometry: [[0.0; 4]; 20],
+            control: [[0.0; 4]; 50],
+            forward_dynamics: [[0.0; 4]; 54],
+        };
+        self::prepare_matrices(&self.parameters, &mut prepared.matrices);
+        self::prepare_inverse_dynamics(&self.parameters, &mut prepared.inverse_dynamics);
+        self::prepare_actuator_geometry(
+            &self.parameters,
+            &mut prepared.actuator_geometry,
+        );
+        self::prepare_control(&self.parameters, &mut prepared.control);
+        self::prepare_forward_dynamics(&self.parameters, &mut prepared.forward_dynamics);
+        prepared
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl PreparedUhp {
+    /// The model as it was when this was made, with its parameters.
+    pub fn model(&self) -> &Uhp {
+        &self.model
+    }
+}
+
+impl crate::lanes::Generic for PreparedUhp {
+    type Parameters<T: Scalar> = Parameters<T>;
+}
+
+impl crate::lanes::InLanes<f64> for PreparedUhp {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = f64>>(
+        of_lane: impl Fn(usize) -> &'a Self,
+    ) -> Parameters<T> {
+        <Uhp as crate::lanes::InLanes<f64>>::in_lanes(|lane| &of_lane(lane).model)
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment for PreparedUhp {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+    ) {
+        crate::kernels::RodAlignment::rod_alignment(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::RodAlignment for PreparedUhp {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics for PreparedUhp {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        actuator_acceleration: &mut [f64; 6],
+        rod_direction: &mut [[f64; 3]; 6],
+        hooke_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::LegKinematics::leg_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::LegKinematics for PreparedUhp {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::BodyKinematics for PreparedUhp {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        payload_com_position: &mut [f64; 3],
+        payload_com_velocity: &mut [f64; 3],
+        payload_com_acceleration: &mut [f64; 3],
+        rod_angular_velocity: &mut [[f64; 3]; 6],
+        rod_angular_acceleration: &mut [[f64; 3]; 6],
+        rod_com_position: &mut [[f64; 3]; 6],
+        rod_com_velocity: &mut [[f64; 3]; 6],
+        rod_com_acceleration: &mut [[f64; 3]; 6],
+        mover_position: &mut [[f64; 3]; 6],
+        mover_velocity: &mut [[f64; 3]; 6],
+        mover_acceleration: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::uhp::BodyKinematics::body_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::BodyKinematics for PreparedUhp {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        rod_angular_velocity: &mut [[T; 3]; 6],
+        rod_angular_acceleration: &mut [[T; 3]; 6],
+        rod_com_position: &mut [[T; 3]; 6],
+        rod_com_velocity: &mut [[T; 3]; 6],
+        rod_com_acceleration: &mut [[T; 3]; 6],
+        mover_position: &mut [[T; 3]; 6],
+        mover_velocity: &mut [[T; 3]; 6],
+        mover_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::PartialVelocities for PreparedUhp {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        payload_partial_velocity: &mut [[f64; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f64; 6]; 3],
+        rod_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+    ) {
+        crate::kernels::uhp::PartialVelocities::partial_velocities(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::PartialVelocities for PreparedUhp {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::uhp::GeneralisedForces for PreparedUhp {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        payload_active_force: &mut [f64; 6],
+        payload_inertia_force: &mut [f64; 6],
+        rod_active_force: &mut [[f64; 6]; 6],
+        rod_inertia_force: &mut [[f64; 6]; 6],
+        mover_active_force: &mut [[f64; 6]; 6],
+        mover_inertia_force: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::uhp::GeneralisedForces::generalised_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::GeneralisedForces for PreparedUhp {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        rod_active_force: &mut [[T; 6]; 6],
+        rod_inertia_force: &mut [[T; 6]; 6],
+        mover_active_force: &mut [[T; 6]; 6],
+        mover_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp for PreparedUhp {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDp::jacobian_dp(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDp for PreparedUhp {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb for PreparedUhp {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDb::jacobian_db(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDb for PreparedUhp {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP for PreparedUhp {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixP::mass_matrix_p(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixP for PreparedUhp {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB for PreparedUhp {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixB::mass_matrix_b(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixB for PreparedUhp {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices for PreparedUhp {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::CoriolisMatrices::coriolis_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::CoriolisMatrices for PreparedUhp {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices for PreparedUhp {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::StiffnessMatrices::stiffness_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::StiffnessMatrices for PreparedUhp {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices for PreparedUhp {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.matrices;
+        crate::single_state!(
+            matrices_prepared_in_lanes, matrices; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; only in lanes prepared : [[f64; 4]; 76];
+            mass_matrix_p : [[f64; 6]; 6], coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp
+            : [[f64; 6]; 6], mass_matrix_b : [[f64; 6]; 6], coriolis_matrix_b : [[f64;
+            6]; 6], jacobian_db : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Matrices for PreparedUhp {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces for PreparedUhp {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveForces::passive_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveForces for PreparedUhp {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias for PreparedUhp {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::Bias::bias(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Bias for PreparedUhp {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion for PreparedUhp {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::EquationOfMotion::equation_of_motion(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::EquationOfMotion for PreparedUhp {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics for PreparedUhp {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.inverse_dynamics;
+        crate::single_state!(
+            inverse_dynamics_prepared_in_lanes, inverse_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 38]; inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::InverseDynamics for PreparedUhp {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for PreparedUhp {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.actuator_geometry;
+        crate::single_state!(
+            actuator_geometry_prepared_in_lanes, actuator_geometry; parameters :
+            Parameters < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3]; only in
+            lanes prepared : [[f64; 4]; 20]; rod_alignment : [f64; 6], actuator_length :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ActuatorGeometry for PreparedUhp {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for PreparedUhp {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.control;
+        crate::single_state!(
+            control_prepared_in_lanes, control; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 50]; actuator_length : [f64; 6], actuator_velocity :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Control for PreparedUhp {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for PreparedUhp {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveInverseDynamics for PreparedUhp {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for PreparedUhp {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        crate::kernels::BaseReaction::base_reaction(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::BaseReaction for PreparedUhp {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics for PreparedUhp {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        forward_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.forward_dynamics;
+        crate::single_state!(
+            forward_dynamics_prepared_in_lanes, forward_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; only in lanes prepared
+            : [[f64; 4]; 54]; forward_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ForwardDynamics for PreparedUhp {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy for PreparedUhp {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        kinetic_energy: &mut f64,
+        potential_energy: &mut f64,
+    ) {
+        crate::kernels::Energy::energy(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Energy for PreparedUhp {
     #[inline(always)]
     fn energy<T: Scalar>(
         parameters: &Parameters<T>,
@@ -21567,1098 +22997,1187 @@ pub fn inverse_dynamics<T: Scalar>(
     inverse_dynamics: &mut [T; 6],
 ) {
     let c = T::constant;
-    // rotation of the platform seen from the base
-    let t1 = base_rotation[1][0] * platform_rotation[1][0];
-    let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
-    let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
-    let t4 = base_rotation[1][0] * platform_rotation[1][1];
-    let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
-    let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
-    let t7 = base_rotation[1][0] * platform_rotation[1][2];
-    let t8 = mul_add(base_rotation[0][0], platform_rotation[0][2], t7);
-    let t9 = mul_add(base_rotation[2][0], platform_rotation[2][2], t8);
-    let t10 = base_rotation[1][1] * platform_rotation[1][0];
-    let t11 = mul_add(base_rotation[0][1], platform_rotation[0][0], t10);
-    let t12 = mul_add(base_rotation[2][1], platform_rotation[2][0], t11);
-    let t13 = base_rotation[1][1] * platform_rotation[1][1];
-    let t14 = mul_add(base_rotation[0][1], platform_rotation[0][1], t13);
-    let t15 = mul_add(base_rotation[2][1], platform_rotation[2][1], t14);
-    let t16 = base_rotation[1][1] * platform_rotation[1][2];
-    let t17 = mul_add(base_rotation[0][1], platform_rotation[0][2], t16);
-    let t18 = mul_add(base_rotation[2][1], platform_rotation[2][2], t17);
-    let t19 = base_rotation[1][2] * platform_rotation[1][0];
-    let t20 = mul_add(base_rotation[0][2], platform_rotation[0][0], t19);
-    let t21 = mul_add(base_rotation[2][2], platform_rotation[2][0], t20);
-    let t22 = base_rotation[1][2] * platform_rotation[1][1];
-    let t23 = mul_add(base_rotation[0][2], platform_rotation[0][1], t22);
-    let t24 = mul_add(base_rotation[2][2], platform_rotation[2][1], t23);
-    let t25 = base_rotation[1][2] * platform_rotation[1][2];
-    let t26 = mul_add(base_rotation[0][2], platform_rotation[0][2], t25);
-    let t27 = mul_add(base_rotation[2][2], platform_rotation[2][2], t26);
-    // platform origin seen from the base
-    let t28 = base_position[2] - platform_position[2];
-    let t29 = base_position[0] - platform_position[0];
-    let t30 = base_position[1] - platform_position[1];
-    let t31 = mul_add(base_rotation[0][0], t29, base_rotation[1][0] * t30);
-    let t32 = mul_add(base_rotation[2][0], t28, t31);
-    let t33 = mul_add(base_rotation[0][1], t29, base_rotation[1][1] * t30);
-    let t34 = mul_add(base_rotation[2][1], t28, t33);
-    let t35 = mul_add(base_rotation[0][2], t29, base_rotation[1][2] * t30);
-    let t36 = mul_add(base_rotation[2][2], t28, t35);
-    // leg 1: platform joint from the platform origin
-    let t37 = parameters.platform_point[0][1] * t6;
-    let t38 = mul_add(parameters.platform_point[0][0], t3, t37);
-    let t39 = mul_add(parameters.platform_point[0][2], t9, t38);
-    let t40 = parameters.platform_point[0][1] * t15;
-    let t41 = mul_add(parameters.platform_point[0][0], t12, t40);
-    let t42 = mul_add(parameters.platform_point[0][2], t18, t41);
-    let t43 = parameters.platform_point[0][1] * t24;
-    let t44 = mul_add(parameters.platform_point[0][0], t21, t43);
-    let t45 = mul_add(parameters.platform_point[0][2], t27, t44);
-    // leg 1: platform joint from the base point
-    let t46 = parameters.base_point[0][0] + (t32 - t39);
-    let t47 = parameters.base_point[0][1] + (t34 - t42);
-    let t48 = parameters.base_point[0][2] + (t36 - t45);
-    // leg 2: platform joint from the platform origin
-    let t49 = parameters.platform_point[1][1] * t6;
-    let t50 = mul_add(parameters.platform_point[1][0], t3, t49);
-    let t51 = mul_add(parameters.platform_point[1][2], t9, t50);
-    let t52 = parameters.platform_point[1][1] * t15;
-    let t53 = mul_add(parameters.platform_point[1][0], t12, t52);
-    let t54 = mul_add(parameters.platform_point[1][2], t18, t53);
-    let t55 = parameters.platform_point[1][1] * t24;
-    let t56 = mul_add(parameters.platform_point[1][0], t21, t55);
-    let t57 = mul_add(parameters.platform_point[1][2], t27, t56);
-    // leg 2: platform joint from the base point
-    let t58 = parameters.base_point[1][0] + (t32 - t51);
-    let t59 = parameters.base_point[1][1] + (t34 - t54);
-    let t60 = parameters.base_point[1][2] + (t36 - t57);
-    // leg 3: platform joint from the platform origin
-    let t61 = parameters.platform_point[2][1] * t6;
-    let t62 = mul_add(parameters.platform_point[2][0], t3, t61);
-    let t63 = mul_add(parameters.platform_point[2][2], t9, t62);
-    let t64 = parameters.platform_point[2][1] * t15;
-    let t65 = mul_add(parameters.platform_point[2][0], t12, t64);
-    let t66 = mul_add(parameters.platform_point[2][2], t18, t65);
-    let t67 = parameters.platform_point[2][1] * t24;
-    let t68 = mul_add(parameters.platform_point[2][0], t21, t67);
-    let t69 = mul_add(parameters.platform_point[2][2], t27, t68);
-    // leg 3: platform joint from the base point
-    let t70 = parameters.base_point[2][0] + (t32 - t63);
-    let t71 = parameters.base_point[2][1] + (t34 - t66);
-    let t72 = parameters.base_point[2][2] + (t36 - t69);
-    // leg 4: platform joint from the platform origin
-    let t73 = parameters.platform_point[3][1] * t6;
-    let t74 = mul_add(parameters.platform_point[3][0], t3, t73);
-    let t75 = mul_add(parameters.platform_point[3][2], t9, t74);
-    let t76 = parameters.platform_point[3][1] * t15;
-    let t77 = mul_add(parameters.platform_point[3][0], t12, t76);
-    let t78 = mul_add(parameters.platform_point[3][2], t18, t77);
-    let t79 = parameters.platform_point[3][1] * t24;
-    let t80 = mul_add(parameters.platform_point[3][0], t21, t79);
-    let t81 = mul_add(parameters.platform_point[3][2], t27, t80);
-    // leg 4: platform joint from the base point
-    let t82 = parameters.base_point[3][0] + (t32 - t75);
-    let t83 = parameters.base_point[3][1] + (t34 - t78);
-    let t84 = parameters.base_point[3][2] + (t36 - t81);
-    // leg 5: platform joint from the platform origin
-    let t85 = parameters.platform_point[4][1] * t6;
-    let t86 = mul_add(parameters.platform_point[4][0], t3, t85);
-    let t87 = mul_add(parameters.platform_point[4][2], t9, t86);
-    let t88 = parameters.platform_point[4][1] * t15;
-    let t89 = mul_add(parameters.platform_point[4][0], t12, t88);
-    let t90 = mul_add(parameters.platform_point[4][2], t18, t89);
-    let t91 = parameters.platform_point[4][1] * t24;
-    let t92 = mul_add(parameters.platform_point[4][0], t21, t91);
-    let t93 = mul_add(parameters.platform_point[4][2], t27, t92);
-    // leg 5: platform joint from the base point
-    let t94 = parameters.base_point[4][0] + (t32 - t87);
-    let t95 = parameters.base_point[4][1] + (t34 - t90);
-    let t96 = parameters.base_point[4][2] + (t36 - t93);
-    // leg 6: platform joint from the platform origin
-    let t97 = parameters.platform_point[5][1] * t6;
-    let t98 = mul_add(parameters.platform_point[5][0], t3, t97);
-    let t99 = mul_add(parameters.platform_point[5][2], t9, t98);
-    let t100 = parameters.platform_point[5][1] * t15;
-    let t101 = mul_add(parameters.platform_point[5][0], t12, t100);
-    let t102 = mul_add(parameters.platform_point[5][2], t18, t101);
-    let t103 = parameters.platform_point[5][1] * t24;
-    let t104 = mul_add(parameters.platform_point[5][0], t21, t103);
-    let t105 = mul_add(parameters.platform_point[5][2], t27, t104);
-    // leg 6: platform joint from the base point
-    let t106 = parameters.base_point[5][0] + (t32 - t99);
-    let t107 = parameters.base_point[5][1] + (t34 - t102);
-    let t108 = parameters.base_point[5][2] + (t36 - t105);
-    // leg 1: offset of the platform joint from the actuator axis
-    let t109 = parameters.actuator_axis[0][1] * t47;
-    let t110 = mul_add(parameters.actuator_axis[0][0], t46, t109);
-    let t111 = mul_add(parameters.actuator_axis[0][2], t48, t110);
-    let t112 = neg_mul_add(parameters.actuator_axis[0][0], t111, t46);
-    let t113 = neg_mul_add(parameters.actuator_axis[0][1], t111, t47);
-    let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
-    // leg 1: extent of the rod along the actuator axis
-    let t115 = parameters.rod_length[0] * parameters.rod_length[0];
-    let t116 = mul_add(t112, t112, t113 * t113);
-    let t117 = sqrt(neg_mul_add(t114, t114, t115) - t116);
-    // leg 1: reciprocal of that extent
-    let t118 = c(1.0) / t117;
-    // leg 1: actuator length d
-    let t119 = t111 + t117;
-    // leg 2: offset of the platform joint from the actuator axis
-    let t120 = parameters.actuator_axis[1][1] * t59;
-    let t121 = mul_add(parameters.actuator_axis[1][0], t58, t120);
-    let t122 = mul_add(parameters.actuator_axis[1][2], t60, t121);
-    let t123 = neg_mul_add(parameters.actuator_axis[1][0], t122, t58);
-    let t124 = neg_mul_add(parameters.actuator_axis[1][1], t122, t59);
-    let t125 = neg_mul_add(parameters.actuator_axis[1][2], t122, t60);
-    // leg 2: extent of the rod along the actuator axis
-    let t126 = parameters.rod_length[1] * parameters.rod_length[1];
-    let t127 = mul_add(t123, t123, t124 * t124);
-    let t128 = sqrt(neg_mul_add(t125, t125, t126) - t127);
-    // leg 2: reciprocal of that extent
-    let t129 = c(1.0) / t128;
-    // leg 2: actuator length d
-    let t130 = t122 + t128;
-    // leg 3: offset of the platform joint from the actuator axis
-    let t131 = parameters.actuator_axis[2][1] * t71;
-    let t132 = mul_add(parameters.actuator_axis[2][0], t70, t131);
-    let t133 = mul_add(parameters.actuator_axis[2][2], t72, t132);
-    let t134 = neg_mul_add(parameters.actuator_axis[2][0], t133, t70);
-    let t135 = neg_mul_add(parameters.actuator_axis[2][1], t133, t71);
-    let t136 = neg_mul_add(parameters.actuator_axis[2][2], t133, t72);
-    // leg 3: extent of the rod along the actuator axis
-    let t137 = parameters.rod_length[2] * parameters.rod_length[2];
-    let t138 = mul_add(t134, t134, t135 * t135);
-    let t139 = sqrt(neg_mul_add(t136, t136, t137) - t138);
-    // leg 3: reciprocal of that extent
-    let t140 = c(1.0) / t139;
-    // leg 3: actuator length d
-    let t141 = t133 + t139;
-    // leg 4: offset of the platform joint from the actuator axis
-    let t142 = parameters.actuator_axis[3][1] * t83;
-    let t143 = mul_add(parameters.actuator_axis[3][0], t82, t142);
-    let t144 = mul_add(parameters.actuator_axis[3][2], t84, t143);
-    let t145 = neg_mul_add(parameters.actuator_axis[3][0], t144, t82);
-    let t146 = neg_mul_add(parameters.actuator_axis[3][1], t144, t83);
-    let t147 = neg_mul_add(parameters.actuator_axis[3][2], t144, t84);
-    // leg 4: extent of the rod along the actuator axis
-    let t148 = parameters.rod_length[3] * parameters.rod_length[3];
-    let t149 = mul_add(t145, t145, t146 * t146);
-    let t150 = sqrt(neg_mul_add(t147, t147, t148) - t149);
-    // leg 4: reciprocal of that extent
-    let t151 = c(1.0) / t150;
-    // leg 4: actuator length d
-    let t152 = t144 + t150;
-    // leg 5: offset of the platform joint from the actuator axis
-    let t153 = parameters.actuator_axis[4][1] * t95;
-    let t154 = mul_add(parameters.actuator_axis[4][0], t94, t153);
-    let t155 = mul_add(parameters.actuator_axis[4][2], t96, t154);
-    let t156 = neg_mul_add(parameters.actuator_axis[4][0], t155, t94);
-    let t157 = neg_mul_add(parameters.actuator_axis[4][1], t155, t95);
-    let t158 = neg_mul_add(parameters.actuator_axis[4][2], t155, t96);
-    // leg 5: extent of the rod along the actuator axis
-    let t159 = parameters.rod_length[4] * parameters.rod_length[4];
-    let t160 = mul_add(t156, t156, t157 * t157);
-    let t161 = sqrt(neg_mul_add(t158, t158, t159) - t160);
-    // leg 5: reciprocal of that extent
-    let t162 = c(1.0) / t161;
-    // leg 5: actuator length d
-    let t163 = t155 + t161;
-    // leg 6: offset of the platform joint from the actuator axis
-    let t164 = parameters.actuator_axis[5][1] * t107;
-    let t165 = mul_add(parameters.actuator_axis[5][0], t106, t164);
-    let t166 = mul_add(parameters.actuator_axis[5][2], t108, t165);
-    let t167 = neg_mul_add(parameters.actuator_axis[5][0], t166, t106);
-    let t168 = neg_mul_add(parameters.actuator_axis[5][1], t166, t107);
-    let t169 = neg_mul_add(parameters.actuator_axis[5][2], t166, t108);
-    // leg 6: extent of the rod along the actuator axis
-    let t170 = parameters.rod_length[5] * parameters.rod_length[5];
-    let t171 = mul_add(t167, t167, t168 * t168);
-    let t172 = sqrt(neg_mul_add(t169, t169, t170) - t171);
-    // leg 6: reciprocal of that extent
-    let t173 = c(1.0) / t172;
-    // leg 6: actuator length d
-    let t174 = t166 + t172;
-    // leg 1: gradient of the actuator length by the platform joint
-    let t175 = neg_mul_add(t112, t118, parameters.actuator_axis[0][0]);
-    let t176 = neg_mul_add(t113, t118, parameters.actuator_axis[0][1]);
-    let t177 = neg_mul_add(t114, t118, parameters.actuator_axis[0][2]);
-    // leg 2: gradient of the actuator length by the platform joint
-    let t178 = neg_mul_add(t123, t129, parameters.actuator_axis[1][0]);
-    let t179 = neg_mul_add(t124, t129, parameters.actuator_axis[1][1]);
-    let t180 = neg_mul_add(t125, t129, parameters.actuator_axis[1][2]);
-    // leg 3: gradient of the actuator length by the platform joint
-    let t181 = neg_mul_add(t134, t140, parameters.actuator_axis[2][0]);
-    let t182 = neg_mul_add(t135, t140, parameters.actuator_axis[2][1]);
-    let t183 = neg_mul_add(t136, t140, parameters.actuator_axis[2][2]);
-    // leg 4: gradient of the actuator length by the platform joint
-    let t184 = neg_mul_add(t145, t151, parameters.actuator_axis[3][0]);
-    let t185 = neg_mul_add(t146, t151, parameters.actuator_axis[3][1]);
-    let t186 = neg_mul_add(t147, t151, parameters.actuator_axis[3][2]);
-    // leg 5: gradient of the actuator length by the platform joint
-    let t187 = neg_mul_add(t156, t162, parameters.actuator_axis[4][0]);
-    let t188 = neg_mul_add(t157, t162, parameters.actuator_axis[4][1]);
-    let t189 = neg_mul_add(t158, t162, parameters.actuator_axis[4][2]);
-    // leg 6: gradient of the actuator length by the platform joint
-    let t190 = neg_mul_add(t167, t173, parameters.actuator_axis[5][0]);
-    let t191 = neg_mul_add(t168, t173, parameters.actuator_axis[5][1]);
-    let t192 = neg_mul_add(t169, t173, parameters.actuator_axis[5][2]);
-    // leg 1: rod's end mass at the Hooke joint
-    let t193 = parameters.rod_com_fraction[0] - c(1.0);
-    let t194 = parameters.rod_inertia[0] / t115;
-    let t195 = mul_add(t193, parameters.rod_mass[0] * t193, t194);
-    // leg 1: leg mass that moves with the platform joint
-    let t196 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
-    let t197 = mul_add(parameters.rod_com_fraction[0], t196, t194);
-    // leg 1: rod's inertial coupling between its ends
-    let t198 = mul_add(t193, t196, t194);
-    // leg 2: rod's end mass at the Hooke joint
-    let t199 = parameters.rod_com_fraction[1] - c(1.0);
-    let t200 = parameters.rod_inertia[1] / t126;
-    let t201 = mul_add(t199, parameters.rod_mass[1] * t199, t200);
-    // leg 2: leg mass that moves with the platform joint
-    let t202 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
-    let t203 = mul_add(parameters.rod_com_fraction[1], t202, t200);
-    // leg 2: rod's inertial coupling between its ends
-    let t204 = mul_add(t199, t202, t200);
-    // leg 3: rod's end mass at the Hooke joint
-    let t205 = parameters.rod_com_fraction[2] - c(1.0);
-    let t206 = parameters.rod_inertia[2] / t137;
-    let t207 = mul_add(t205, parameters.rod_mass[2] * t205, t206);
-    // leg 3: leg mass that moves with the platform joint
-    let t208 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
-    let t209 = mul_add(parameters.rod_com_fraction[2], t208, t206);
-    // leg 3: rod's inertial coupling between its ends
-    let t210 = mul_add(t205, t208, t206);
-    // leg 4: rod's end mass at the Hooke joint
-    let t211 = parameters.rod_com_fraction[3] - c(1.0);
-    let t212 = parameters.rod_inertia[3] / t148;
-    let t213 = mul_add(t211, parameters.rod_mass[3] * t211, t212);
-    // leg 4: leg mass that moves with the platform joint
-    let t214 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
-    let t215 = mul_add(parameters.rod_com_fraction[3], t214, t212);
-    // leg 4: rod's inertial coupling between its ends
-    let t216 = mul_add(t211, t214, t212);
-    // leg 5: rod's end mass at the Hooke joint
-    let t217 = parameters.rod_com_fraction[4] - c(1.0);
-    let t218 = parameters.rod_inertia[4] / t159;
-    let t219 = mul_add(t217, parameters.rod_mass[4] * t217, t218);
-    // leg 5: leg mass that moves with the platform joint
-    let t220 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
-    let t221 = mul_add(parameters.rod_com_fraction[4], t220, t218);
-    // leg 5: rod's inertial coupling between its ends
-    let t222 = mul_add(t217, t220, t218);
-    // leg 6: rod's end mass at the Hooke joint
-    let t223 = parameters.rod_com_fraction[5] - c(1.0);
-    let t224 = parameters.rod_inertia[5] / t170;
-    let t225 = mul_add(t223, parameters.rod_mass[5] * t223, t224);
-    // leg 6: leg mass that moves with the platform joint
-    let t226 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
-    let t227 = mul_add(parameters.rod_com_fraction[5], t226, t224);
-    // leg 6: rod's inertial coupling between its ends
-    let t228 = mul_add(t223, t226, t224);
-    // mass of payload and platform-side leg ends
-    let t229 = t221 + (t215 + (t209 + (t203 + (parameters.payload_mass + t197))));
-    let t230 = t227 + t229;
-    // first moment of payload and platform-side leg ends
-    let t231 = parameters.platform_point[0][0] * t197;
-    let t232 = mul_add(parameters.payload_mass, parameters.payload_com[0], t231);
-    let t233 = mul_add(parameters.platform_point[1][0], t203, t232);
-    let t234 = mul_add(parameters.platform_point[2][0], t209, t233);
-    let t235 = mul_add(parameters.platform_point[3][0], t215, t234);
-    let t236 = mul_add(parameters.platform_point[4][0], t221, t235);
-    let t237 = mul_add(parameters.platform_point[5][0], t227, t236);
-    let t238 = parameters.platform_point[0][1] * t197;
-    let t239 = mul_add(parameters.payload_mass, parameters.payload_com[1], t238);
-    let t240 = mul_add(parameters.platform_point[1][1], t203, t239);
-    let t241 = mul_add(parameters.platform_point[2][1], t209, t240);
-    let t242 = mul_add(parameters.platform_point[3][1], t215, t241);
-    let t243 = mul_add(parameters.platform_point[4][1], t221, t242);
-    let t244 = mul_add(parameters.platform_point[5][1], t227, t243);
-    let t245 = parameters.platform_point[0][2] * t197;
-    let t246 = mul_add(parameters.payload_mass, parameters.payload_com[2], t245);
-    let t247 = mul_add(parameters.platform_point[1][2], t203, t246);
-    let t248 = mul_add(parameters.platform_point[2][2], t209, t247);
-    let t249 = mul_add(parameters.platform_point[3][2], t215, t248);
-    let t250 = mul_add(parameters.platform_point[4][2], t221, t249);
-    let t251 = mul_add(parameters.platform_point[5][2], t227, t250);
-    // second moment of payload and platform-side leg ends
-    let t252 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
-    let t253 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
-    let t254 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
-    let t255 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
-    let t256 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
-    let t257 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
-    let t258 = parameters.payload_com[0] * parameters.payload_com[0];
-    let t259 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t260 = parameters.payload_inertia[2][2] + t259;
-    let t261 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[0][0]);
-    let t262 = neg_mul_add(parameters.payload_mass, t258, t261);
-    let t263 = neg_mul_add(t203, t256, neg_mul_add(t197, t257, t262));
-    let t264 = neg_mul_add(t215, t254, neg_mul_add(t209, t255, t263));
-    let t265 = neg_mul_add(t227, t252, neg_mul_add(t221, t253, t264));
-    let t266 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
-    let t267 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
-    let t268 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
-    let t269 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
-    let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
-    let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
-    let t272 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
-    let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
-    let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
-    let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
-    let t277 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
-    let t278 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
-    let t279 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
-    let t280 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
-    let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
-    let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
-    let t283 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
-    let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
-    let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
-    let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
-    let t288 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
-    let t289 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
-    let t290 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
-    let t291 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
-    let t292 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
-    let t293 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
-    let t294 = parameters.payload_com[1] * parameters.payload_com[1];
-    let t295 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[1][1]);
-    let t296 = neg_mul_add(parameters.payload_mass, t294, t295);
-    let t297 = neg_mul_add(t203, t292, neg_mul_add(t197, t293, t296));
-    let t298 = neg_mul_add(t215, t290, neg_mul_add(t209, t291, t297));
-    let t299 = neg_mul_add(t227, t288, neg_mul_add(t221, t289, t298));
-    let t300 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
-    let t301 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
-    let t302 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
-    let t303 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
-    let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
-    let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
-    let t306 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
-    let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
-    let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
-    let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
-    let t311 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
-    let t312 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
-    let t313 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
-    let t314 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
-    let t315 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
-    let t316 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
-    let t317 = parameters.payload_com[2] * parameters.payload_com[2];
-    let t318 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[2][2]);
-    let t319 = neg_mul_add(parameters.payload_mass, t317, t318);
-    let t320 = neg_mul_add(t203, t315, neg_mul_add(t197, t316, t319));
-    let t321 = neg_mul_add(t215, t313, neg_mul_add(t209, t314, t320));
-    let t322 = neg_mul_add(t227, t311, neg_mul_add(t221, t312, t321));
-    // angular velocity of the base
-    let t323 = base_rotation[1][0] * base_velocity[4];
-    let t324 = mul_add(base_rotation[0][0], base_velocity[3], t323);
-    let t325 = mul_add(base_rotation[2][0], base_velocity[5], t324);
-    let t326 = base_rotation[1][1] * base_velocity[4];
-    let t327 = mul_add(base_rotation[0][1], base_velocity[3], t326);
-    let t328 = mul_add(base_rotation[2][1], base_velocity[5], t327);
-    let t329 = base_rotation[1][2] * base_velocity[4];
-    let t330 = mul_add(base_rotation[0][2], base_velocity[3], t329);
-    let t331 = mul_add(base_rotation[2][2], base_velocity[5], t330);
-    // angular velocity of the platform
-    let t332 = base_rotation[1][0] * platform_velocity[4];
-    let t333 = mul_add(base_rotation[0][0], platform_velocity[3], t332);
-    let t334 = mul_add(base_rotation[2][0], platform_velocity[5], t333);
-    let t335 = base_rotation[1][1] * platform_velocity[4];
-    let t336 = mul_add(base_rotation[0][1], platform_velocity[3], t335);
-    let t337 = mul_add(base_rotation[2][1], platform_velocity[5], t336);
-    let t338 = base_rotation[1][2] * platform_velocity[4];
-    let t339 = mul_add(base_rotation[0][2], platform_velocity[3], t338);
-    let t340 = mul_add(base_rotation[2][2], platform_velocity[5], t339);
-    // angular velocity of the platform relative to the base
-    let t341 = t325 - t334;
-    let t342 = t328 - t337;
-    let t343 = t331 - t340;
-    // velocity of the platform origin relative to the base
-    let t344 = base_velocity[2] - platform_velocity[2];
-    let t345 = base_velocity[0] - platform_velocity[0];
-    let t346 = base_velocity[1] - platform_velocity[1];
-    let t347 = mul_add(base_rotation[0][0], t345, base_rotation[1][0] * t346);
-    let t348 = neg_mul_add(t36, t328, mul_add(base_rotation[2][0], t344, t347));
-    let t349 = mul_add(t34, t331, t348);
-    let t350 = mul_add(base_rotation[0][1], t345, base_rotation[1][1] * t346);
-    let t351 = neg_mul_add(t32, t331, mul_add(base_rotation[2][1], t344, t350));
-    let t352 = mul_add(t36, t325, t351);
-    let t353 = mul_add(base_rotation[0][2], t345, base_rotation[1][2] * t346);
-    let t354 = neg_mul_add(t34, t325, mul_add(base_rotation[2][2], t344, t353));
-    let t355 = mul_add(t32, t328, t354);
-    // leg 1: velocity of the platform joint relative to the base
-    let t356 = neg_mul_add(t42, t343, mul_add(t45, t342, t349));
-    let t357 = neg_mul_add(t45, t341, mul_add(t39, t343, t352));
-    let t358 = neg_mul_add(t39, t342, mul_add(t42, t341, t355));
-    // leg 2: velocity of the platform joint relative to the base
-    let t359 = neg_mul_add(t54, t343, mul_add(t57, t342, t349));
-    let t360 = neg_mul_add(t57, t341, mul_add(t51, t343, t352));
-    let t361 = neg_mul_add(t51, t342, mul_add(t54, t341, t355));
-    // leg 3: velocity of the platform joint relative to the base
-    let t362 = neg_mul_add(t66, t343, mul_add(t69, t342, t349));
-    let t363 = neg_mul_add(t69, t341, mul_add(t63, t343, t352));
-    let t364 = neg_mul_add(t63, t342, mul_add(t66, t341, t355));
-    // leg 4: velocity of the platform joint relative to the base
-    let t365 = neg_mul_add(t78, t343, mul_add(t81, t342, t349));
-    let t366 = neg_mul_add(t81, t341, mul_add(t75, t343, t352));
-    let t367 = neg_mul_add(t75, t342, mul_add(t78, t341, t355));
-    // leg 5: velocity of the platform joint relative to the base
-    let t368 = neg_mul_add(t90, t343, mul_add(t93, t342, t349));
-    let t369 = neg_mul_add(t93, t341, mul_add(t87, t343, t352));
-    let t370 = neg_mul_add(t87, t342, mul_add(t90, t341, t355));
-    // leg 6: velocity of the platform joint relative to the base
-    let t371 = neg_mul_add(t102, t343, mul_add(t105, t342, t349));
-    let t372 = neg_mul_add(t105, t341, mul_add(t99, t343, t352));
-    let t373 = neg_mul_add(t99, t342, mul_add(t102, t341, t355));
-    // leg 1: rate of the offset from the actuator axis
-    let t374 = parameters.actuator_axis[0][1] * t357;
-    let t375 = mul_add(parameters.actuator_axis[0][0], t356, t374);
-    let t376 = mul_add(parameters.actuator_axis[0][2], t358, t375);
-    let t377 = neg_mul_add(parameters.actuator_axis[0][0], t376, t356);
-    let t378 = neg_mul_add(parameters.actuator_axis[0][1], t376, t357);
-    let t379 = neg_mul_add(parameters.actuator_axis[0][2], t376, t358);
-    // leg 1: rate of the rod's extent along the actuator axis
-    let t380 = mul_add(t177, t358, mul_add(t175, t356, t176 * t357));
-    let t381 = t376 - t380;
-    // leg 2: rate of the offset from the actuator axis
-    let t382 = parameters.actuator_axis[1][1] * t360;
-    let t383 = mul_add(parameters.actuator_axis[1][0], t359, t382);
-    let t384 = mul_add(parameters.actuator_axis[1][2], t361, t383);
-    let t385 = neg_mul_add(parameters.actuator_axis[1][0], t384, t359);
-    let t386 = neg_mul_add(parameters.actuator_axis[1][1], t384, t360);
-    let t387 = neg_mul_add(parameters.actuator_axis[1][2], t384, t361);
-    // leg 2: rate of the rod's extent along the actuator axis
-    let t388 = mul_add(t180, t361, mul_add(t178, t359, t179 * t360));
-    let t389 = t384 - t388;
-    // leg 3: rate of the offset from the actuator axis
-    let t390 = parameters.actuator_axis[2][1] * t363;
-    let t391 = mul_add(parameters.actuator_axis[2][0], t362, t390);
-    let t392 = mul_add(parameters.actuator_axis[2][2], t364, t391);
-    let t393 = neg_mul_add(parameters.actuator_axis[2][0], t392, t362);
-    let t394 = neg_mul_add(parameters.actuator_axis[2][1], t392, t363);
-    let t395 = neg_mul_add(parameters.actuator_axis[2][2], t392, t364);
-    // leg 3: rate of the rod's extent along the actuator axis
-    let t396 = mul_add(t183, t364, mul_add(t181, t362, t182 * t363));
-    let t397 = t392 - t396;
-    // leg 4: rate of the offset from the actuator axis
-    let t398 = parameters.actuator_axis[3][1] * t366;
-    let t399 = mul_add(parameters.actuator_axis[3][0], t365, t398);
-    let t400 = mul_add(parameters.actuator_axis[3][2], t367, t399);
-    let t401 = neg_mul_add(parameters.actuator_axis[3][0], t400, t365);
-    let t402 = neg_mul_add(parameters.actuator_axis[3][1], t400, t366);
-    let t403 = neg_mul_add(parameters.actuator_axis[3][2], t400, t367);
-    // leg 4: rate of the rod's extent along the actuator axis
-    let t404 = mul_add(t186, t367, mul_add(t184, t365, t185 * t366));
-    let t405 = t400 - t404;
-    // leg 5: rate of the offset from the actuator axis
-    let t406 = parameters.actuator_axis[4][1] * t369;
-    let t407 = mul_add(parameters.actuator_axis[4][0], t368, t406);
-    let t408 = mul_add(parameters.actuator_axis[4][2], t370, t407);
-    let t409 = neg_mul_add(parameters.actuator_axis[4][0], t408, t368);
-    let t410 = neg_mul_add(parameters.actuator_axis[4][1], t408, t369);
-    let t411 = neg_mul_add(parameters.actuator_axis[4][2], t408, t370);
-    // leg 5: rate of the rod's extent along the actuator axis
-    let t412 = mul_add(t189, t370, mul_add(t187, t368, t188 * t369));
-    let t413 = t408 - t412;
-    // leg 6: rate of the offset from the actuator axis
-    let t414 = parameters.actuator_axis[5][1] * t372;
-    let t415 = mul_add(parameters.actuator_axis[5][0], t371, t414);
-    let t416 = mul_add(parameters.actuator_axis[5][2], t373, t415);
-    let t417 = neg_mul_add(parameters.actuator_axis[5][0], t416, t371);
-    let t418 = neg_mul_add(parameters.actuator_axis[5][1], t416, t372);
-    let t419 = neg_mul_add(parameters.actuator_axis[5][2], t416, t373);
-    // leg 6: rate of the rod's extent along the actuator axis
-    let t420 = mul_add(t192, t373, mul_add(t190, t371, t191 * t372));
-    let t421 = t416 - t420;
-    // acceleration of the base origin less gravity
-    let t422 = base_acceleration[2] - parameters.gravity[2];
-    let t423 = base_acceleration[0] - parameters.gravity[0];
-    let t424 = base_acceleration[1] - parameters.gravity[1];
-    let t425 = mul_add(base_rotation[0][0], t423, base_rotation[1][0] * t424);
-    let t426 = mul_add(base_rotation[2][0], t422, t425);
-    let t427 = mul_add(base_rotation[0][1], t423, base_rotation[1][1] * t424);
-    let t428 = mul_add(base_rotation[2][1], t422, t427);
-    let t429 = mul_add(base_rotation[0][2], t423, base_rotation[1][2] * t424);
-    let t430 = mul_add(base_rotation[2][2], t422, t429);
-    // angular acceleration of the base
-    let t431 = base_rotation[1][0] * base_acceleration[4];
-    let t432 = mul_add(base_rotation[0][0], base_acceleration[3], t431);
-    let t433 = mul_add(base_rotation[2][0], base_acceleration[5], t432);
-    let t434 = base_rotation[1][1] * base_acceleration[4];
-    let t435 = mul_add(base_rotation[0][1], base_acceleration[3], t434);
-    let t436 = mul_add(base_rotation[2][1], base_acceleration[5], t435);
-    let t437 = base_rotation[1][2] * base_acceleration[4];
-    let t438 = mul_add(base_rotation[0][2], base_acceleration[3], t437);
-    let t439 = mul_add(base_rotation[2][2], base_acceleration[5], t438);
-    // acceleration per base coordinate of points that move with the base
-    let t440 = mul_add(t328, t328, t331 * t331);
-    let t441 = neg_mul_add(t325, t328, t439);
-    let t442 = mul_add(t325, t331, t436);
-    let t443 = mul_add(t325, t328, t439);
-    let t444 = t325 * t325;
-    let t445 = mul_add(t331, t331, t444);
-    let t446 = neg_mul_add(t328, t331, t433);
-    let t447 = neg_mul_add(t325, t331, t436);
-    let t448 = mul_add(t328, t331, t433);
-    let t449 = mul_add(t328, t328, t444);
-    // acceleration of the platform origin less gravity
-    let t450 = platform_acceleration[2] - parameters.gravity[2];
-    let t451 = platform_acceleration[0] - parameters.gravity[0];
-    let t452 = platform_acceleration[1] - parameters.gravity[1];
-    let t453 = mul_add(base_rotation[0][0], t451, base_rotation[1][0] * t452);
-    let t454 = mul_add(base_rotation[2][0], t450, t453);
-    let t455 = mul_add(base_rotation[0][1], t451, base_rotation[1][1] * t452);
-    let t456 = mul_add(base_rotation[2][1], t450, t455);
-    let t457 = mul_add(base_rotation[0][2], t451, base_rotation[1][2] * t452);
-    let t458 = mul_add(base_rotation[2][2], t450, t457);
-    // angular acceleration of the platform
-    let t459 = base_rotation[1][0] * platform_acceleration[4];
-    let t460 = mul_add(base_rotation[0][0], platform_acceleration[3], t459);
-    let t461 = mul_add(base_rotation[2][0], platform_acceleration[5], t460);
-    let t462 = base_rotation[1][1] * platform_acceleration[4];
-    let t463 = mul_add(base_rotation[0][1], platform_acceleration[3], t462);
-    let t464 = mul_add(base_rotation[2][1], platform_acceleration[5], t463);
-    let t465 = base_rotation[1][2] * platform_acceleration[4];
-    let t466 = mul_add(base_rotation[0][2], platform_acceleration[3], t465);
-    let t467 = mul_add(base_rotation[2][2], platform_acceleration[5], t466);
-    // acceleration per platform coordinate of points of the platform
-    let t468 = mul_sub(t3, t340, t21 * t334);
-    let t469 = mul_sub(t12, t334, t3 * t337);
-    let t470 = mul_add(t337, t469, mul_sub(t21, t464, t12 * t467));
-    let t471 = neg_mul_add(t340, t468, t470);
-    let t472 = mul_sub(t6, t340, t24 * t334);
-    let t473 = mul_sub(t15, t334, t6 * t337);
-    let t474 = mul_add(t337, t473, mul_sub(t24, t464, t15 * t467));
-    let t475 = neg_mul_add(t340, t472, t474);
-    let t476 = mul_sub(t9, t340, t27 * t334);
-    let t477 = mul_sub(t18, t334, t9 * t337);
-    let t478 = mul_add(t337, t477, mul_sub(t27, t464, t18 * t467));
-    let t479 = neg_mul_add(t340, t476, t478);
-    let t480 = mul_sub(t21, t337, t12 * t340);
-    let t481 = mul_add(t340, t480, mul_sub(t3, t467, t21 * t461));
-    let t482 = neg_mul_add(t334, t469, t481);
-    let t483 = mul_sub(t24, t337, t15 * t340);
-    let t484 = mul_add(t340, t483, mul_sub(t6, t467, t24 * t461));
-    let t485 = neg_mul_add(t334, t473, t484);
-    let t486 = mul_sub(t27, t337, t18 * t340);
-    let t487 = mul_add(t340, t486, mul_sub(t9, t467, t27 * t461));
-    let t488 = neg_mul_add(t334, t477, t487);
-    let t489 = mul_add(t334, t468, mul_sub(t12, t461, t3 * t464));
-    let t490 = neg_mul_add(t337, t480, t489);
-    let t491 = mul_add(t334, t472, mul_sub(t15, t461, t6 * t464));
-    let t492 = neg_mul_add(t337, t483, t491);
-    let t493 = mul_add(t334, t476, mul_sub(t18, t461, t9 * t464));
-    let t494 = neg_mul_add(t337, t486, t493);
-    // acceleration of the platform origin relative to the base, less w x v
-    let t495 = neg_mul_add(t36, t442, t426 - t454);
-    let t496 = mul_add(t32, t440, t34 * t441) + t495;
-    let t497 = t328 + t337;
-    let t498 = t331 + t340;
-    let t499 = t496 - mul_sub(t355, t497, t352 * t498);
-    let t500 = mul_sub(t32, t443, t34 * t445);
-    let t501 = mul_add(t36, t446, t428 - t456) - t500;
-    let t502 = t325 + t334;
-    let t503 = t501 - mul_sub(t349, t498, t355 * t502);
-    let t504 = mul_add(t36, t449, t430 - t458);
-    let t505 = mul_sub(t32, t447, t34 * t448) + t504;
-    let t506 = t505 - mul_sub(t352, t502, t349 * t497);
-    // rate of that angular velocity
-    let t507 = mul_add(t331, t342, neg_mul_add(t328, t343, t433 - t461));
-    let t508 = mul_add(t325, t343, neg_mul_add(t331, t341, t436 - t464));
-    let t509 = mul_add(t328, t341, neg_mul_add(t325, t342, t439 - t467));
-    // leg 1: acceleration of the platform joint relative to the base
-    let t510 = neg_mul_add(t42, t509, mul_add(t45, t508, t499));
-    let t511 = t510 - mul_sub(t342, t358, t343 * t357);
-    let t512 = neg_mul_add(t45, t507, mul_add(t39, t509, t503));
-    let t513 = t512 - mul_sub(t343, t356, t341 * t358);
-    let t514 = neg_mul_add(t39, t508, mul_add(t42, t507, t506));
-    let t515 = t514 - mul_sub(t341, t357, t342 * t356);
-    // leg 2: acceleration of the platform joint relative to the base
-    let t516 = neg_mul_add(t54, t509, mul_add(t57, t508, t499));
-    let t517 = t516 - mul_sub(t342, t361, t343 * t360);
-    let t518 = neg_mul_add(t57, t507, mul_add(t51, t509, t503));
-    let t519 = t518 - mul_sub(t343, t359, t341 * t361);
-    let t520 = neg_mul_add(t51, t508, mul_add(t54, t507, t506));
-    let t521 = t520 - mul_sub(t341, t360, t342 * t359);
-    // leg 3: acceleration of the platform joint relative to the base
-    let t522 = neg_mul_add(t66, t509, mul_add(t69, t508, t499));
-    let t523 = t522 - mul_sub(t342, t364, t343 * t363);
-    let t524 = neg_mul_add(t69, t507, mul_add(t63, t509, t503));
-    let t525 = t524 - mul_sub(t343, t362, t341 * t364);
-    let t526 = neg_mul_add(t63, t508, mul_add(t66, t507, t506));
-    let t527 = t526 - mul_sub(t341, t363, t342 * t362);
-    // leg 4: acceleration of the platform joint relative to the base
-    let t528 = neg_mul_add(t78, t509, mul_add(t81, t508, t499));
-    let t529 = t528 - mul_sub(t342, t367, t343 * t366);
-    let t530 = neg_mul_add(t81, t507, mul_add(t75, t509, t503));
-    let t531 = t530 - mul_sub(t343, t365, t341 * t367);
-    let t532 = neg_mul_add(t75, t508, mul_add(t78, t507, t506));
-    let t533 = t532 - mul_sub(t341, t366, t342 * t365);
-    // leg 5: acceleration of the platform joint relative to the base
-    let t534 = neg_mul_add(t90, t509, mul_add(t93, t508, t499));
-    let t535 = t534 - mul_sub(t342, t370, t343 * t369);
-    let t536 = neg_mul_add(t93, t507, mul_add(t87, t509, t503));
-    let t537 = t536 - mul_sub(t343, t368, t341 * t370);
-    let t538 = neg_mul_add(t87, t508, mul_add(t90, t507, t506));
-    let t539 = t538 - mul_sub(t341, t369, t342 * t368);
-    // leg 6: acceleration of the platform joint relative to the base
-    let t540 = neg_mul_add(t102, t509, mul_add(t105, t508, t499));
-    let t541 = t540 - mul_sub(t342, t373, t343 * t372);
-    let t542 = neg_mul_add(t105, t507, mul_add(t99, t509, t503));
-    let t543 = t542 - mul_sub(t343, t371, t341 * t373);
-    let t544 = neg_mul_add(t99, t508, mul_add(t102, t507, t506));
-    let t545 = t544 - mul_sub(t341, t372, t342 * t371);
-    // leg 1: actuator acceleration d''
-    let t546 = mul_add(t379, t379, mul_add(t377, t377, t378 * t378));
-    let t547 = mul_add(t177, t515, mul_add(t175, t511, t176 * t513));
-    let t548 = neg_mul_add(t118, mul_add(t381, t381, t546), t547);
-    // leg 2: actuator acceleration d''
-    let t549 = mul_add(t387, t387, mul_add(t385, t385, t386 * t386));
-    let t550 = mul_add(t180, t521, mul_add(t178, t517, t179 * t519));
-    let t551 = neg_mul_add(t129, mul_add(t389, t389, t549), t550);
-    // leg 3: actuator acceleration d''
-    let t552 = mul_add(t395, t395, mul_add(t393, t393, t394 * t394));
-    let t553 = mul_add(t183, t527, mul_add(t181, t523, t182 * t525));
-    let t554 = neg_mul_add(t140, mul_add(t397, t397, t552), t553);
-    // leg 4: actuator acceleration d''
-    let t555 = mul_add(t403, t403, mul_add(t401, t401, t402 * t402));
-    let t556 = mul_add(t186, t533, mul_add(t184, t529, t185 * t531));
-    let t557 = neg_mul_add(t151, mul_add(t405, t405, t555), t556);
-    // leg 5: actuator acceleration d''
-    let t558 = mul_add(t411, t411, mul_add(t409, t409, t410 * t410));
-    let t559 = mul_add(t189, t539, mul_add(t187, t535, t188 * t537));
-    let t560 = neg_mul_add(t162, mul_add(t413, t413, t558), t559);
-    // leg 6: actuator acceleration d''
-    let t561 = mul_add(t419, t419, mul_add(t417, t417, t418 * t418));
-    let t562 = mul_add(t192, t545, mul_add(t190, t541, t191 * t543));
-    let t563 = neg_mul_add(t173, mul_add(t421, t421, t561), t562);
-    // leg 1: leg inertia less weight along the actuator
-    let t564 = c(2.0) * t380;
-    let t565 = parameters.actuator_axis[0][1] * t331;
-    let t566 = mul_sub(parameters.actuator_axis[0][2], t328, t565);
-    let t567 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
-    let t568 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
-    let t569 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
-    let t570 = mul_add(t442, t567, t426) - mul_add(t440, t568, t441 * t569);
-    let t571 = neg_mul_add(t564, t566, t570);
-    let t572 = neg_mul_add(parameters.actuator_axis[0][0], t548, t571);
-    let t573 = parameters.actuator_axis[0][2] * t325;
-    let t574 = mul_sub(parameters.actuator_axis[0][0], t331, t573);
-    let t575 = mul_sub(t443, t568, t445 * t569);
-    let t576 = neg_mul_add(t564, t574, t575 + neg_mul_add(t446, t567, t428));
-    let t577 = neg_mul_add(parameters.actuator_axis[0][1], t548, t576);
-    let t578 = parameters.actuator_axis[0][0] * t328;
-    let t579 = mul_sub(parameters.actuator_axis[0][1], t325, t578);
-    let t580 = mul_sub(t447, t568, t448 * t569);
-    let t581 = neg_mul_add(t564, t579, neg_mul_add(t449, t567, t430) - t580);
-    let t582 = neg_mul_add(parameters.actuator_axis[0][2], t548, t581);
-    let t583 = mul_add(t579, t579, mul_add(t566, t566, t574 * t574));
-    let t584 = parameters.actuator_axis[0][1] * t577;
-    let t585 = mul_add(parameters.actuator_axis[0][0], t572, t584);
-    let t586 = mul_add(parameters.actuator_axis[0][2], t582, t585);
-    let t587 = mul_add(parameters.mover_offset[0], t583, t586);
-    let t588 = parameters.platform_point[0][1] * t492;
-    let t589 = mul_add(parameters.platform_point[0][2], t494, t458);
-    let t590 = mul_add(parameters.platform_point[0][0], t490, t588) + t589;
-    let t591 = parameters.platform_point[0][1] * t475;
-    let t592 = mul_add(parameters.platform_point[0][2], t479, t454);
-    let t593 = mul_add(parameters.platform_point[0][0], t471, t591) + t592;
-    let t594 = parameters.platform_point[0][1] * t485;
-    let t595 = mul_add(parameters.platform_point[0][2], t488, t456);
-    let t596 = mul_add(parameters.platform_point[0][0], t482, t594) + t595;
-    let t597 = parameters.actuator_axis[0][1] * t596;
-    let t598 = mul_add(parameters.actuator_axis[0][0], t593, t597);
-    let t599 = t198 * mul_add(parameters.actuator_axis[0][2], t590, t598);
-    let t600 = mul_add(parameters.mover_mass[0], t587, mul_sub(t195, t586, t599));
-    // leg 1: remaining leg inertia less weight at the platform joint
-    let t601 = t198 * t572;
-    let t602 = t198 * t577;
-    let t603 = t198 * t582;
-    // leg 2: leg inertia less weight along the actuator
-    let t604 = c(2.0) * t388;
-    let t605 = parameters.actuator_axis[1][1] * t331;
-    let t606 = mul_sub(parameters.actuator_axis[1][2], t328, t605);
-    let t607 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
-    let t608 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
-    let t609 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
-    let t610 = mul_add(t442, t607, t426) - mul_add(t440, t608, t441 * t609);
-    let t611 = neg_mul_add(t604, t606, t610);
-    let t612 = neg_mul_add(parameters.actuator_axis[1][0], t551, t611);
-    let t613 = parameters.actuator_axis[1][2] * t325;
-    let t614 = mul_sub(parameters.actuator_axis[1][0], t331, t613);
-    let t615 = mul_sub(t443, t608, t445 * t609);
-    let t616 = neg_mul_add(t604, t614, t615 + neg_mul_add(t446, t607, t428));
-    let t617 = neg_mul_add(parameters.actuator_axis[1][1], t551, t616);
-    let t618 = parameters.actuator_axis[1][0] * t328;
-    let t619 = mul_sub(parameters.actuator_axis[1][1], t325, t618);
-    let t620 = mul_sub(t447, t608, t448 * t609);
-    let t621 = neg_mul_add(t604, t619, neg_mul_add(t449, t607, t430) - t620);
-    let t622 = neg_mul_add(parameters.actuator_axis[1][2], t551, t621);
-    let t623 = mul_add(t619, t619, mul_add(t606, t606, t614 * t614));
-    let t624 = parameters.actuator_axis[1][1] * t617;
-    let t625 = mul_add(parameters.actuator_axis[1][0], t612, t624);
-    let t626 = mul_add(parameters.actuator_axis[1][2], t622, t625);
-    let t627 = mul_add(parameters.mover_offset[1], t623, t626);
-    let t628 = parameters.platform_point[1][1] * t492;
-    let t629 = mul_add(parameters.platform_point[1][2], t494, t458);
-    let t630 = mul_add(parameters.platform_point[1][0], t490, t628) + t629;
-    let t631 = parameters.platform_point[1][1] * t475;
-    let t632 = mul_add(parameters.platform_point[1][2], t479, t454);
-    let t633 = mul_add(parameters.platform_point[1][0], t471, t631) + t632;
-    let t634 = parameters.platform_point[1][1] * t485;
-    let t635 = mul_add(parameters.platform_point[1][2], t488, t456);
-    let t636 = mul_add(parameters.platform_point[1][0], t482, t634) + t635;
-    let t637 = parameters.actuator_axis[1][1] * t636;
-    let t638 = mul_add(parameters.actuator_axis[1][0], t633, t637);
-    let t639 = t204 * mul_add(parameters.actuator_axis[1][2], t630, t638);
-    let t640 = mul_add(parameters.mover_mass[1], t627, mul_sub(t201, t626, t639));
-    // leg 2: remaining leg inertia less weight at the platform joint
-    let t641 = t204 * t612;
-    let t642 = t204 * t617;
-    let t643 = t204 * t622;
-    // leg 3: leg inertia less weight along the actuator
-    let t644 = c(2.0) * t396;
-    let t645 = parameters.actuator_axis[2][1] * t331;
-    let t646 = mul_sub(parameters.actuator_axis[2][2], t328, t645);
-    let t647 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
-    let t648 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
-    let t649 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
-    let t650 = mul_add(t442, t647, t426) - mul_add(t440, t648, t441 * t649);
-    let t651 = neg_mul_add(t644, t646, t650);
-    let t652 = neg_mul_add(parameters.actuator_axis[2][0], t554, t651);
-    let t653 = parameters.actuator_axis[2][2] * t325;
-    let t654 = mul_sub(parameters.actuator_axis[2][0], t331, t653);
-    let t655 = mul_sub(t443, t648, t445 * t649);
-    let t656 = neg_mul_add(t644, t654, t655 + neg_mul_add(t446, t647, t428));
-    let t657 = neg_mul_add(parameters.actuator_axis[2][1], t554, t656);
-    let t658 = parameters.actuator_axis[2][0] * t328;
-    let t659 = mul_sub(parameters.actuator_axis[2][1], t325, t658);
-    let t660 = mul_sub(t447, t648, t448 * t649);
-    let t661 = neg_mul_add(t644, t659, neg_mul_add(t449, t647, t430) - t660);
-    let t662 = neg_mul_add(parameters.actuator_axis[2][2], t554, t661);
-    let t663 = mul_add(t659, t659, mul_add(t646, t646, t654 * t654));
-    let t664 = parameters.actuator_axis[2][1] * t657;
-    let t665 = mul_add(parameters.actuator_axis[2][0], t652, t664);
-    let t666 = mul_add(parameters.actuator_axis[2][2], t662, t665);
-    let t667 = mul_add(parameters.mover_offset[2], t663, t666);
-    let t668 = parameters.platform_point[2][1] * t492;
-    let t669 = mul_add(parameters.platform_point[2][2], t494, t458);
-    let t670 = mul_add(parameters.platform_point[2][0], t490, t668) + t669;
-    let t671 = parameters.platform_point[2][1] * t475;
-    let t672 = mul_add(parameters.platform_point[2][2], t479, t454);
-    let t673 = mul_add(parameters.platform_point[2][0], t471, t671) + t672;
-    let t674 = parameters.platform_point[2][1] * t485;
-    let t675 = mul_add(parameters.platform_point[2][2], t488, t456);
-    let t676 = mul_add(parameters.platform_point[2][0], t482, t674) + t675;
-    let t677 = parameters.actuator_axis[2][1] * t676;
-    let t678 = mul_add(parameters.actuator_axis[2][0], t673, t677);
-    let t679 = t210 * mul_add(parameters.actuator_axis[2][2], t670, t678);
-    let t680 = mul_add(parameters.mover_mass[2], t667, mul_sub(t207, t666, t679));
-    // leg 3: remaining leg inertia less weight at the platform joint
-    let t681 = t210 * t652;
-    let t682 = t210 * t657;
-    let t683 = t210 * t662;
-    // leg 4: leg inertia less weight along the actuator
-    let t684 = c(2.0) * t404;
-    let t685 = parameters.actuator_axis[3][1] * t331;
-    let t686 = mul_sub(parameters.actuator_axis[3][2], t328, t685);
-    let t687 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
-    let t688 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
-    let t689 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
-    let t690 = mul_add(t442, t687, t426) - mul_add(t440, t688, t441 * t689);
-    let t691 = neg_mul_add(t684, t686, t690);
-    let t692 = neg_mul_add(parameters.actuator_axis[3][0], t557, t691);
-    let t693 = parameters.actuator_axis[3][2] * t325;
-    let t694 = mul_sub(parameters.actuator_axis[3][0], t331, t693);
-    let t695 = mul_sub(t443, t688, t445 * t689);
-    let t696 = neg_mul_add(t684, t694, t695 + neg_mul_add(t446, t687, t428));
-    let t697 = neg_mul_add(parameters.actuator_axis[3][1], t557, t696);
-    let t698 = parameters.actuator_axis[3][0] * t328;
-    let t699 = mul_sub(parameters.actuator_axis[3][1], t325, t698);
-    let t700 = mul_sub(t447, t688, t448 * t689);
-    let t701 = neg_mul_add(t684, t699, neg_mul_add(t449, t687, t430) - t700);
-    let t702 = neg_mul_add(parameters.actuator_axis[3][2], t557, t701);
-    let t703 = mul_add(t699, t699, mul_add(t686, t686, t694 * t694));
-    let t704 = parameters.actuator_axis[3][1] * t697;
-    let t705 = mul_add(parameters.actuator_axis[3][0], t692, t704);
-    let t706 = mul_add(parameters.actuator_axis[3][2], t702, t705);
-    let t707 = mul_add(parameters.mover_offset[3], t703, t706);
-    let t708 = parameters.platform_point[3][1] * t492;
-    let t709 = mul_add(parameters.platform_point[3][2], t494, t458);
-    let t710 = mul_add(parameters.platform_point[3][0], t490, t708) + t709;
-    let t711 = parameters.platform_point[3][1] * t475;
-    let t712 = mul_add(parameters.platform_point[3][2], t479, t454);
-    let t713 = mul_add(parameters.platform_point[3][0], t471, t711) + t712;
-    let t714 = parameters.platform_point[3][1] * t485;
-    let t715 = mul_add(parameters.platform_point[3][2], t488, t456);
-    let t716 = mul_add(parameters.platform_point[3][0], t482, t714) + t715;
-    let t717 = parameters.actuator_axis[3][1] * t716;
-    let t718 = mul_add(parameters.actuator_axis[3][0], t713, t717);
-    let t719 = t216 * mul_add(parameters.actuator_axis[3][2], t710, t718);
-    let t720 = mul_add(parameters.mover_mass[3], t707, mul_sub(t213, t706, t719));
-    // leg 4: remaining leg inertia less weight at the platform joint
-    let t721 = t216 * t692;
-    let t722 = t216 * t697;
-    let t723 = t216 * t702;
-    // leg 5: leg inertia less weight along the actuator
-    let t724 = c(2.0) * t412;
-    let t725 = parameters.actuator_axis[4][1] * t331;
-    let t726 = mul_sub(parameters.actuator_axis[4][2], t328, t725);
-    let t727 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
-    let t728 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
-    let t729 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
-    let t730 = mul_add(t442, t727, t426) - mul_add(t440, t728, t441 * t729);
-    let t731 = neg_mul_add(t724, t726, t730);
-    let t732 = neg_mul_add(parameters.actuator_axis[4][0], t560, t731);
-    let t733 = parameters.actuator_axis[4][2] * t325;
-    let t734 = mul_sub(parameters.actuator_axis[4][0], t331, t733);
-    let t735 = mul_sub(t443, t728, t445 * t729);
-    let t736 = neg_mul_add(t724, t734, t735 + neg_mul_add(t446, t727, t428));
-    let t737 = neg_mul_add(parameters.actuator_axis[4][1], t560, t736);
-    let t738 = parameters.actuator_axis[4][0] * t328;
-    let t739 = mul_sub(parameters.actuator_axis[4][1], t325, t738);
-    let t740 = mul_sub(t447, t728, t448 * t729);
-    let t741 = neg_mul_add(t724, t739, neg_mul_add(t449, t727, t430) - t740);
-    let t742 = neg_mul_add(parameters.actuator_axis[4][2], t560, t741);
-    let t743 = mul_add(t739, t739, mul_add(t726, t726, t734 * t734));
-    let t744 = parameters.actuator_axis[4][1] * t737;
-    let t745 = mul_add(parameters.actuator_axis[4][0], t732, t744);
-    let t746 = mul_add(parameters.actuator_axis[4][2], t742, t745);
-    let t747 = mul_add(parameters.mover_offset[4], t743, t746);
-    let t748 = parameters.platform_point[4][1] * t492;
-    let t749 = mul_add(parameters.platform_point[4][2], t494, t458);
-    let t750 = mul_add(parameters.platform_point[4][0], t490, t748) + t749;
-    let t751 = parameters.platform_point[4][1] * t475;
-    let t752 = mul_add(parameters.platform_point[4][2], t479, t454);
-    let t753 = mul_add(parameters.platform_point[4][0], t471, t751) + t752;
-    let t754 = parameters.platform_point[4][1] * t485;
-    let t755 = mul_add(parameters.platform_point[4][2], t488, t456);
-    let t756 = mul_add(parameters.platform_point[4][0], t482, t754) + t755;
-    let t757 = parameters.actuator_axis[4][1] * t756;
-    let t758 = mul_add(parameters.actuator_axis[4][0], t753, t757);
-    let t759 = t222 * mul_add(parameters.actuator_axis[4][2], t750, t758);
-    let t760 = mul_add(parameters.mover_mass[4], t747, mul_sub(t219, t746, t759));
-    // leg 5: remaining leg inertia less weight at the platform joint
-    let t761 = t222 * t732;
-    let t762 = t222 * t737;
-    let t763 = t222 * t742;
-    // leg 6: leg inertia less weight along the actuator
-    let t764 = c(2.0) * t420;
-    let t765 = parameters.actuator_axis[5][1] * t331;
-    let t766 = mul_sub(parameters.actuator_axis[5][2], t328, t765);
-    let t767 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
-    let t768 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
-    let t769 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
-    let t770 = mul_add(t442, t767, t426) - mul_add(t440, t768, t441 * t769);
-    let t771 = neg_mul_add(t764, t766, t770);
-    let t772 = neg_mul_add(parameters.actuator_axis[5][0], t563, t771);
-    let t773 = parameters.actuator_axis[5][2] * t325;
-    let t774 = mul_sub(parameters.actuator_axis[5][0], t331, t773);
-    let t775 = mul_sub(t443, t768, t445 * t769);
-    let t776 = neg_mul_add(t764, t774, t775 + neg_mul_add(t446, t767, t428));
-    let t777 = neg_mul_add(parameters.actuator_axis[5][1], t563, t776);
-    let t778 = parameters.actuator_axis[5][0] * t328;
-    let t779 = mul_sub(parameters.actuator_axis[5][1], t325, t778);
-    let t780 = mul_sub(t447, t768, t448 * t769);
-    let t781 = neg_mul_add(t764, t779, neg_mul_add(t449, t767, t430) - t780);
-    let t782 = neg_mul_add(parameters.actuator_axis[5][2], t563, t781);
-    let t783 = mul_add(t779, t779, mul_add(t766, t766, t774 * t774));
-    let t784 = parameters.actuator_axis[5][1] * t777;
-    let t785 = mul_add(parameters.actuator_axis[5][0], t772, t784);
-    let t786 = mul_add(parameters.actuator_axis[5][2], t782, t785);
-    let t787 = mul_add(parameters.mover_offset[5], t783, t786);
-    let t788 = parameters.platform_point[5][1] * t492;
-    let t789 = mul_add(parameters.platform_point[5][2], t494, t458);
-    let t790 = mul_add(parameters.platform_point[5][0], t490, t788) + t789;
-    let t791 = parameters.platform_point[5][1] * t475;
-    let t792 = mul_add(parameters.platform_point[5][2], t479, t454);
-    let t793 = mul_add(parameters.platform_point[5][0], t471, t791) + t792;
-    let t794 = parameters.platform_point[5][1] * t485;
-    let t795 = mul_add(parameters.platform_point[5][2], t488, t456);
-    let t796 = mul_add(parameters.platform_point[5][0], t482, t794) + t795;
-    let t797 = parameters.actuator_axis[5][1] * t796;
-    let t798 = mul_add(parameters.actuator_axis[5][0], t793, t797);
-    let t799 = t228 * mul_add(parameters.actuator_axis[5][2], t790, t798);
-    let t800 = mul_add(parameters.mover_mass[5], t787, mul_sub(t225, t786, t799));
-    // leg 6: remaining leg inertia less weight at the platform joint
-    let t801 = t228 * t772;
-    let t802 = t228 * t777;
-    let t803 = t228 * t782;
-    // leg 1: spring and damper force along the actuator
-    let t804 = parameters.rest_length[0] + t119;
-    let t805 = parameters.axial_damping[0] * t380;
-    let t806 = mul_add(parameters.axial_stiffness[0], t804, t805);
-    // leg 2: spring and damper force along the actuator
-    let t807 = parameters.rest_length[1] + t130;
-    let t808 = parameters.axial_damping[1] * t388;
-    let t809 = mul_add(parameters.axial_stiffness[1], t807, t808);
-    // leg 3: spring and damper force along the actuator
-    let t810 = parameters.rest_length[2] + t141;
-    let t811 = parameters.axial_damping[2] * t396;
-    let t812 = mul_add(parameters.axial_stiffness[2], t810, t811);
-    // leg 4: spring and damper force along the actuator
-    let t813 = parameters.rest_length[3] + t152;
-    let t814 = parameters.axial_damping[3] * t404;
-    let t815 = mul_add(parameters.axial_stiffness[3], t813, t814);
-    // leg 5: spring and damper force along the actuator
-    let t816 = parameters.rest_length[4] + t163;
-    let t817 = parameters.axial_damping[4] * t412;
-    let t818 = mul_add(parameters.axial_stiffness[4], t816, t817);
-    // leg 6: spring and damper force along the actuator
-    let t819 = parameters.rest_length[5] + t174;
-    let t820 = parameters.axial_damping[5] * t420;
-    let t821 = mul_add(parameters.axial_stiffness[5], t819, t820);
-    // leg 1: row of the actuator Jacobian in base coordinates
-    let t822 = mul_sub(t42, t177, t45 * t176);
-    let t823 = mul_sub(t45, t175, t39 * t177);
-    let t824 = mul_sub(t39, t176, t42 * t175);
-    // leg 2: row of the actuator Jacobian in base coordinates
-    let t825 = mul_sub(t54, t180, t57 * t179);
-    let t826 = mul_sub(t57, t178, t51 * t180);
-    let t827 = mul_sub(t51, t179, t54 * t178);
-    // leg 3: row of the actuator Jacobian in base coordinates
-    let t828 = mul_sub(t66, t183, t69 * t182);
-    let t829 = mul_sub(t69, t181, t63 * t183);
-    let t830 = mul_sub(t63, t182, t66 * t181);
-    // leg 4: row of the actuator Jacobian in base coordinates
-    let t831 = mul_sub(t78, t186, t81 * t185);
-    let t832 = mul_sub(t81, t184, t75 * t186);
-    let t833 = mul_sub(t75, t185, t78 * t184);
-    // leg 5: row of the actuator Jacobian in base coordinates
-    let t834 = mul_sub(t90, t189, t93 * t188);
-    let t835 = mul_sub(t93, t187, t87 * t189);
-    let t836 = mul_sub(t87, t188, t90 * t187);
-    // leg 6: row of the actuator Jacobian in base coordinates
-    let t837 = mul_sub(t102, t192, t105 * t191);
-    let t838 = mul_sub(t105, t190, t99 * t192);
-    let t839 = mul_sub(t99, t191, t102 * t190);
-    // leg 1: moment about the platform origin of the leg's inertia at its joint
-    let t840 = mul_sub(t42, t603, t45 * t602);
-    let t841 = mul_sub(t45, t601, t39 * t603);
-    let t842 = mul_sub(t39, t602, t42 * t601);
-    // leg 2: moment about the platform origin of the leg's inertia at its joint
-    let t843 = mul_sub(t54, t643, t57 * t642);
-    let t844 = mul_sub(t57, t641, t51 * t643);
-    let t845 = mul_sub(t51, t642, t54 * t641);
-    // leg 4: moment about the platform origin of the leg's inertia at its joint
-    let t846 = mul_sub(t78, t723, t81 * t722);
-    let t847 = mul_sub(t81, t721, t75 * t723);
-    let t848 = mul_sub(t75, t722, t78 * t721);
-    // leg 6: moment about the platform origin of the leg's inertia at its joint
-    let t849 = mul_sub(t102, t803, t105 * t802);
-    let t850 = mul_sub(t105, t801, t99 * t803);
-    let t851 = mul_sub(t99, t802, t102 * t801);
-    // inertia force less weight, without the actuators' own shares
-    let t852 = mul_add(t251, t479, mul_add(t237, t471, t244 * t475));
-    let t853 = mul_add(t251, t488, mul_add(t237, t482, t244 * t485));
-    let t854 = mul_add(t251, t494, mul_add(t237, t490, t244 * t492));
-    // first moments by platform coordinate of the payload's inertia force
-    let t855 = mul_add(t287, t479, mul_add(t265, t471, t276 * t475));
-    let t856 = mul_sub(t237, t454, t855);
-    let t857 = mul_add(t310, t479, mul_add(t276, t471, t299 * t475));
-    let t858 = mul_sub(t244, t454, t857);
-    let t859 = mul_add(t322, t479, mul_add(t287, t471, t310 * t475));
-    let t860 = mul_sub(t251, t454, t859);
-    let t861 = mul_add(t287, t488, mul_add(t265, t482, t276 * t485));
-    let t862 = mul_sub(t237, t456, t861);
-    let t863 = mul_add(t310, t488, mul_add(t276, t482, t299 * t485));
-    let t864 = mul_sub(t244, t456, t863);
-    let t865 = mul_add(t322, t488, mul_add(t287, t482, t310 * t485));
-    let t866 = mul_sub(t251, t456, t865);
-    let t867 = mul_add(t287, t494, mul_add(t265, t490, t276 * t492));
-    let t868 = mul_sub(t237, t458, t867);
-    let t869 = mul_add(t310, t494, mul_add(t276, t490, t299 * t492));
-    let t870 = mul_sub(t244, t458, t869);
-    let t871 = mul_add(t322, t494, mul_add(t287, t490, t310 * t492));
-    let t872 = mul_sub(t251, t458, t871);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t873 = neg_mul_add(t69, t682, mul_add(t66, t683, t846));
-    let t874 = neg_mul_add(t93, t762, mul_add(t90, t763, t849));
-    let t875 = t840 + t843 + t873 + t874;
-    let t876 = neg_mul_add(t63, t683, mul_add(t69, t681, t847));
-    let t877 = neg_mul_add(t87, t763, mul_add(t93, t761, t850));
-    let t878 = t841 + t844 + t876 + t877;
-    let t879 = neg_mul_add(t66, t681, mul_add(t63, t682, t848));
-    let t880 = neg_mul_add(t90, t761, mul_add(t87, t762, t851));
-    let t881 = t842 + t845 + t879 + t880;
-    // inertia less external wrench that the actuators must balance
-    let t882 = base_rotation[1][0] * external_wrench[1];
-    let t883 = mul_add(base_rotation[0][0], external_wrench[0], t882);
-    let t884 = mul_add(base_rotation[2][0], external_wrench[2], t883);
-    let t885 = neg_mul_add(t198, t572, t852 + mul_sub(t230, t454, t884));
-    let t886 = neg_mul_add(t210, t652, neg_mul_add(t204, t612, t885));
-    let t887 = neg_mul_add(t222, t732, neg_mul_add(t216, t692, t886));
-    let t888 = neg_mul_add(t228, t772, t887);
-    let t889 = base_rotation[1][1] * external_wrench[1];
-    let t890 = mul_add(base_rotation[0][1], external_wrench[0], t889);
-    let t891 = mul_add(base_rotation[2][1], external_wrench[2], t890);
-    let t892 = neg_mul_add(t198, t577, t853 + mul_sub(t230, t456, t891));
-    let t893 = neg_mul_add(t210, t657, neg_mul_add(t204, t617, t892));
-    let t894 = neg_mul_add(t222, t737, neg_mul_add(t216, t697, t893));
-    let t895 = neg_mul_add(t228, t777, t894);
-    let t896 = base_rotation[1][2] * external_wrench[1];
-    let t897 = mul_add(base_rotation[0][2], external_wrench[0], t896);
-    let t898 = mul_add(base_rotation[2][2], external_wrench[2], t897);
-    let t899 = neg_mul_add(t198, t582, t854 + mul_sub(t230, t458, t898));
-    let t900 = neg_mul_add(t210, t662, neg_mul_add(t204, t622, t899));
-    let t901 = neg_mul_add(t222, t742, neg_mul_add(t216, t702, t900));
-    let t902 = neg_mul_add(t228, t782, t901);
-    let t903 = neg_mul_add(parameters.payload_com[0], t898, t868);
-    let t904 = neg_mul_add(parameters.payload_com[0], t891, t862);
-    let t905 = neg_mul_add(parameters.payload_com[1], t898, t870);
-    let t906 = neg_mul_add(parameters.payload_com[1], t891, t864);
-    let t907 = mul_sub(t15, t905, t24 * t906);
-    let t908 = neg_mul_add(parameters.payload_com[2], t891, t866);
-    let t909 = neg_mul_add(parameters.payload_com[2], t898, t872);
-    let t910 = base_rotation[1][0] * external_wrench[4];
-    let t911 = mul_add(base_rotation[0][0], external_wrench[3], t910);
-    let t912 = mul_add(base_rotation[2][0], external_wrench[5], t911);
-    let t913 = neg_mul_add(t27, t908, mul_sub(t18, t909, t912));
-    let t914 = mul_sub(t12, t903, t21 * t904) + t907 + t913 - t875;
-    let t915 = neg_mul_add(parameters.payload_com[0], t884, t856);
-    let t916 = neg_mul_add(parameters.payload_com[1], t884, t858);
-    let t917 = mul_sub(t24, t916, t6 * t905);
-    let t918 = neg_mul_add(parameters.payload_com[2], t884, t860);
-    let t919 = base_rotation[1][1] * external_wrench[4];
-    let t920 = mul_add(base_rotation[0][1], external_wrench[3], t919);
-    let t921 = mul_add(base_rotation[2][1], external_wrench[5], t920);
-    let t922 = neg_mul_add(t9, t909, mul_sub(t27, t918, t921));
-    let t923 = mul_sub(t21, t915, t3 * t903) + t917 + t922 - t878;
-    let t924 = mul_sub(t6, t906, t15 * t916);
-    let t925 = base_rotation[1][2] * external_wrench[4];
-    let t926 = mul_add(base_rotation[0][2], external_wrench[3], t925);
-    let t927 = mul_add(base_rotation[2][2], external_wrench[5], t926);
-    let t928 = neg_mul_add(t18, t918, mul_sub(t9, t908, t927));
-    let t929 = mul_sub(t3, t904, t12 * t915) + t924 + t928 - t881;
-    // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
-        &[
-            [t175, t178, t181, t184, t187, t190],
-            [t176, t179, t182, t185, t188, t191],
-            [t177, t180, t183, t186, t189, t192],
-            [t822, t825, t828, t831, t834, t837],
-            [t823, t826, t829, t832, t835, t838],
-            [t824, t827, t830, t833, t836, t839],
-        ],
-        &[t888, t895, t902, t914, t923, t929],
-    );
-    // leg 1: actuator forces F
-    inverse_dynamics[0] = axial_reaction[0] + (t600 - t806);
-    // leg 2: actuator forces F
-    inverse_dynamics[1] = axial_reaction[1] + (t640 - t809);
-    // leg 3: actuator forces F
-    inverse_dynamics[2] = axial_reaction[2] + (t680 - t812);
-    // leg 4: actuator forces F
-    inverse_dynamics[3] = axial_reaction[3] + (t720 - t815);
-    // leg 5: actuator forces F
-    inverse_dynamics[4] = axial_reaction[4] + (t760 - t818);
-    // leg 6: actuator forces F
-    inverse_dynamics[5] = axial_reaction[5] + (t800 - t821);
+    let (
+        t175, t176, t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t187, t188, t189,
+        t190, t191, t192, t600, t640, t680, t720, t760, t800, t806, t809, t812, t815, t818, t821,
+        t822, t823, t824, t825, t826, t827, t828, t829, t830, t831, t832, t833, t834, t835, t836,
+        t837, t838, t839, t888, t889, t896, t897, t904, t905, t917, t918, t927, t928, t934, t935,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
+        let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
+        let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = mul_add(base_rotation[0][0], platform_rotation[0][2], t7);
+        let t9 = mul_add(base_rotation[2][0], platform_rotation[2][2], t8);
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = mul_add(base_rotation[0][1], platform_rotation[0][0], t10);
+        let t12 = mul_add(base_rotation[2][1], platform_rotation[2][0], t11);
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = mul_add(base_rotation[0][1], platform_rotation[0][1], t13);
+        let t15 = mul_add(base_rotation[2][1], platform_rotation[2][1], t14);
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = mul_add(base_rotation[0][1], platform_rotation[0][2], t16);
+        let t18 = mul_add(base_rotation[2][1], platform_rotation[2][2], t17);
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = mul_add(base_rotation[0][2], platform_rotation[0][0], t19);
+        let t21 = mul_add(base_rotation[2][2], platform_rotation[2][0], t20);
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = mul_add(base_rotation[0][2], platform_rotation[0][1], t22);
+        let t24 = mul_add(base_rotation[2][2], platform_rotation[2][1], t23);
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = mul_add(base_rotation[0][2], platform_rotation[0][2], t25);
+        let t27 = mul_add(base_rotation[2][2], platform_rotation[2][2], t26);
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = mul_add(base_rotation[0][0], t29, base_rotation[1][0] * t30);
+        let t32 = mul_add(base_rotation[2][0], t28, t31);
+        let t33 = mul_add(base_rotation[0][1], t29, base_rotation[1][1] * t30);
+        let t34 = mul_add(base_rotation[2][1], t28, t33);
+        let t35 = mul_add(base_rotation[0][2], t29, base_rotation[1][2] * t30);
+        let t36 = mul_add(base_rotation[2][2], t28, t35);
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = mul_add(parameters.platform_point[0][0], t3, t37);
+        let t39 = mul_add(parameters.platform_point[0][2], t9, t38);
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = mul_add(parameters.platform_point[0][0], t12, t40);
+        let t42 = mul_add(parameters.platform_point[0][2], t18, t41);
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = mul_add(parameters.platform_point[0][0], t21, t43);
+        let t45 = mul_add(parameters.platform_point[0][2], t27, t44);
+        // leg 1: platform joint from the base point
+        let t46 = parameters.base_point[0][0] + (t32 - t39);
+        let t47 = parameters.base_point[0][1] + (t34 - t42);
+        let t48 = parameters.base_point[0][2] + (t36 - t45);
+        // leg 2: platform joint from the platform origin
+        let t49 = parameters.platform_point[1][1] * t6;
+        let t50 = mul_add(parameters.platform_point[1][0], t3, t49);
+        let t51 = mul_add(parameters.platform_point[1][2], t9, t50);
+        let t52 = parameters.platform_point[1][1] * t15;
+        let t53 = mul_add(parameters.platform_point[1][0], t12, t52);
+        let t54 = mul_add(parameters.platform_point[1][2], t18, t53);
+        let t55 = parameters.platform_point[1][1] * t24;
+        let t56 = mul_add(parameters.platform_point[1][0], t21, t55);
+        let t57 = mul_add(parameters.platform_point[1][2], t27, t56);
+        // leg 2: platform joint from the base point
+        let t58 = parameters.base_point[1][0] + (t32 - t51);
+        let t59 = parameters.base_point[1][1] + (t34 - t54);
+        let t60 = parameters.base_point[1][2] + (t36 - t57);
+        // leg 3: platform joint from the platform origin
+        let t61 = parameters.platform_point[2][1] * t6;
+        let t62 = mul_add(parameters.platform_point[2][0], t3, t61);
+        let t63 = mul_add(parameters.platform_point[2][2], t9, t62);
+        let t64 = parameters.platform_point[2][1] * t15;
+        let t65 = mul_add(parameters.platform_point[2][0], t12, t64);
+        let t66 = mul_add(parameters.platform_point[2][2], t18, t65);
+        let t67 = parameters.platform_point[2][1] * t24;
+        let t68 = mul_add(parameters.platform_point[2][0], t21, t67);
+        let t69 = mul_add(parameters.platform_point[2][2], t27, t68);
+        // leg 3: platform joint from the base point
+        let t70 = parameters.base_point[2][0] + (t32 - t63);
+        let t71 = parameters.base_point[2][1] + (t34 - t66);
+        let t72 = parameters.base_point[2][2] + (t36 - t69);
+        // leg 4: platform joint from the platform origin
+        let t73 = parameters.platform_point[3][1] * t6;
+        let t74 = mul_add(parameters.platform_point[3][0], t3, t73);
+        let t75 = mul_add(parameters.platform_point[3][2], t9, t74);
+        let t76 = parameters.platform_point[3][1] * t15;
+        let t77 = mul_add(parameters.platform_point[3][0], t12, t76);
+        let t78 = mul_add(parameters.platform_point[3][2], t18, t77);
+        let t79 = parameters.platform_point[3][1] * t24;
+        let t80 = mul_add(parameters.platform_point[3][0], t21, t79);
+        let t81 = mul_add(parameters.platform_point[3][2], t27, t80);
+        // leg 4: platform joint from the base point
+        let t82 = parameters.base_point[3][0] + (t32 - t75);
+        let t83 = parameters.base_point[3][1] + (t34 - t78);
+        let t84 = parameters.base_point[3][2] + (t36 - t81);
+        // leg 5: platform joint from the platform origin
+        let t85 = parameters.platform_point[4][1] * t6;
+        let t86 = mul_add(parameters.platform_point[4][0], t3, t85);
+        let t87 = mul_add(parameters.platform_point[4][2], t9, t86);
+        let t88 = parameters.platform_point[4][1] * t15;
+        let t89 = mul_add(parameters.platform_point[4][0], t12, t88);
+        let t90 = mul_add(parameters.platform_point[4][2], t18, t89);
+        let t91 = parameters.platform_point[4][1] * t24;
+        let t92 = mul_add(parameters.platform_point[4][0], t21, t91);
+        let t93 = mul_add(parameters.platform_point[4][2], t27, t92);
+        // leg 5: platform joint from the base point
+        let t94 = parameters.base_point[4][0] + (t32 - t87);
+        let t95 = parameters.base_point[4][1] + (t34 - t90);
+        let t96 = parameters.base_point[4][2] + (t36 - t93);
+        // leg 6: platform joint from the platform origin
+        let t97 = parameters.platform_point[5][1] * t6;
+        let t98 = mul_add(parameters.platform_point[5][0], t3, t97);
+        let t99 = mul_add(parameters.platform_point[5][2], t9, t98);
+        let t100 = parameters.platform_point[5][1] * t15;
+        let t101 = mul_add(parameters.platform_point[5][0], t12, t100);
+        let t102 = mul_add(parameters.platform_point[5][2], t18, t101);
+        let t103 = parameters.platform_point[5][1] * t24;
+        let t104 = mul_add(parameters.platform_point[5][0], t21, t103);
+        let t105 = mul_add(parameters.platform_point[5][2], t27, t104);
+        // leg 6: platform joint from the base point
+        let t106 = parameters.base_point[5][0] + (t32 - t99);
+        let t107 = parameters.base_point[5][1] + (t34 - t102);
+        let t108 = parameters.base_point[5][2] + (t36 - t105);
+        // leg 1: offset of the platform joint from the actuator axis
+        let t109 = parameters.actuator_axis[0][1] * t47;
+        let t110 = mul_add(parameters.actuator_axis[0][0], t46, t109);
+        let t111 = mul_add(parameters.actuator_axis[0][2], t48, t110);
+        let t112 = neg_mul_add(parameters.actuator_axis[0][0], t111, t46);
+        let t113 = neg_mul_add(parameters.actuator_axis[0][1], t111, t47);
+        let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
+        // leg 1: extent of the rod along the actuator axis
+        let t115 = parameters.rod_length[0] * parameters.rod_length[0];
+        let t116 = mul_add(t112, t112, t113 * t113);
+        let t117 = sqrt(neg_mul_add(t114, t114, t115) - t116);
+        // leg 1: reciprocal of that extent
+        let t118 = c(1.0) / t117;
+        // leg 1: actuator length d
+        let t119 = t111 + t117;
+        // leg 2: offset of the platform joint from the actuator axis
+        let t120 = parameters.actuator_axis[1][1] * t59;
+        let t121 = mul_add(parameters.actuator_axis[1][0], t58, t120);
+        let t122 = mul_add(parameters.actuator_axis[1][2], t60, t121);
+        let t123 = neg_mul_add(parameters.actuator_axis[1][0], t122, t58);
+        let t124 = neg_mul_add(parameters.actuator_axis[1][1], t122, t59);
+        let t125 = neg_mul_add(parameters.actuator_axis[1][2], t122, t60);
+        // leg 2: extent of the rod along the actuator axis
+        let t126 = parameters.rod_length[1] * parameters.rod_length[1];
+        let t127 = mul_add(t123, t123, t124 * t124);
+        let t128 = sqrt(neg_mul_add(t125, t125, t126) - t127);
+        // leg 2: reciprocal of that extent
+        let t129 = c(1.0) / t128;
+        // leg 2: actuator length d
+        let t130 = t122 + t128;
+        // leg 3: offset of the platform joint from the actuator axis
+        let t131 = parameters.actuator_axis[2][1] * t71;
+        let t132 = mul_add(parameters.actuator_axis[2][0], t70, t131);
+        let t133 = mul_add(parameters.actuator_axis[2][2], t72, t132);
+        let t134 = neg_mul_add(parameters.actuator_axis[2][0], t133, t70);
+        let t135 = neg_mul_add(parameters.actuator_axis[2][1], t133, t71);
+        let t136 = neg_mul_add(parameters.actuator_axis[2][2], t133, t72);
+        // leg 3: extent of the rod along the actuator axis
+        let t137 = parameters.rod_length[2] * parameters.rod_length[2];
+        let t138 = mul_add(t134, t134, t135 * t135);
+        let t139 = sqrt(neg_mul_add(t136, t136, t137) - t138);
+        // leg 3: reciprocal of that extent
+        let t140 = c(1.0) / t139;
+        // leg 3: actuator length d
+        let t141 = t133 + t139;
+        // leg 4: offset of the platform joint from the actuator axis
+        let t142 = parameters.actuator_axis[3][1] * t83;
+        let t143 = mul_add(parameters.actuator_axis[3][0], t82, t142);
+        let t144 = mul_add(parameters.actuator_axis[3][2], t84, t143);
+        let t145 = neg_mul_add(parameters.actuator_axis[3][0], t144, t82);
+        let t146 = neg_mul_add(parameters.actuator_axis[3][1], t144, t83);
+        let t147 = neg_mul_add(parameters.actuator_axis[3][2], t144, t84);
+        // leg 4: extent of the rod along the actuator axis
+        let t148 = parameters.rod_length[3] * parameters.rod_length[3];
+        let t149 = mul_add(t145, t145, t146 * t146);
+        let t150 = sqrt(neg_mul_add(t147, t147, t148) - t149);
+        // leg 4: reciprocal of that extent
+        let t151 = c(1.0) / t150;
+        // leg 4: actuator length d
+        let t152 = t144 + t150;
+        // leg 5: offset of the platform joint from the actuator axis
+        let t153 = parameters.actuator_axis[4][1] * t95;
+        let t154 = mul_add(parameters.actuator_axis[4][0], t94, t153);
+        let t155 = mul_add(parameters.actuator_axis[4][2], t96, t154);
+        let t156 = neg_mul_add(parameters.actuator_axis[4][0], t155, t94);
+        let t157 = neg_mul_add(parameters.actuator_axis[4][1], t155, t95);
+        let t158 = neg_mul_add(parameters.actuator_axis[4][2], t155, t96);
+        // leg 5: extent of the rod along the actuator axis
+        let t159 = parameters.rod_length[4] * parameters.rod_length[4];
+        let t160 = mul_add(t156, t156, t157 * t157);
+        let t161 = sqrt(neg_mul_add(t158, t158, t159) - t160);
+        // leg 5: reciprocal of that extent
+        let t162 = c(1.0) / t161;
+        // leg 5: actuator length d
+        let t163 = t155 + t161;
+        // leg 6: offset of the platform joint from the actuator axis
+        let t164 = parameters.actuator_axis[5][1] * t107;
+        let t165 = mul_add(parameters.actuator_axis[5][0], t106, t164);
+        let t166 = mul_add(parameters.actuator_axis[5][2], t108, t165);
+        let t167 = neg_mul_add(parameters.actuator_axis[5][0], t166, t106);
+        let t168 = neg_mul_add(parameters.actuator_axis[5][1], t166, t107);
+        let t169 = neg_mul_add(parameters.actuator_axis[5][2], t166, t108);
+        // leg 6: extent of the rod along the actuator axis
+        let t170 = parameters.rod_length[5] * parameters.rod_length[5];
+        let t171 = mul_add(t167, t167, t168 * t168);
+        let t172 = sqrt(neg_mul_add(t169, t169, t170) - t171);
+        // leg 6: reciprocal of that extent
+        let t173 = c(1.0) / t172;
+        // leg 6: actuator length d
+        let t174 = t166 + t172;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t175 = neg_mul_add(t112, t118, parameters.actuator_axis[0][0]);
+        let t176 = neg_mul_add(t113, t118, parameters.actuator_axis[0][1]);
+        let t177 = neg_mul_add(t114, t118, parameters.actuator_axis[0][2]);
+        // leg 2: gradient of the actuator length by the platform joint
+        let t178 = neg_mul_add(t123, t129, parameters.actuator_axis[1][0]);
+        let t179 = neg_mul_add(t124, t129, parameters.actuator_axis[1][1]);
+        let t180 = neg_mul_add(t125, t129, parameters.actuator_axis[1][2]);
+        // leg 3: gradient of the actuator length by the platform joint
+        let t181 = neg_mul_add(t134, t140, parameters.actuator_axis[2][0]);
+        let t182 = neg_mul_add(t135, t140, parameters.actuator_axis[2][1]);
+        let t183 = neg_mul_add(t136, t140, parameters.actuator_axis[2][2]);
+        // leg 4: gradient of the actuator length by the platform joint
+        let t184 = neg_mul_add(t145, t151, parameters.actuator_axis[3][0]);
+        let t185 = neg_mul_add(t146, t151, parameters.actuator_axis[3][1]);
+        let t186 = neg_mul_add(t147, t151, parameters.actuator_axis[3][2]);
+        // leg 5: gradient of the actuator length by the platform joint
+        let t187 = neg_mul_add(t156, t162, parameters.actuator_axis[4][0]);
+        let t188 = neg_mul_add(t157, t162, parameters.actuator_axis[4][1]);
+        let t189 = neg_mul_add(t158, t162, parameters.actuator_axis[4][2]);
+        // leg 6: gradient of the actuator length by the platform joint
+        let t190 = neg_mul_add(t167, t173, parameters.actuator_axis[5][0]);
+        let t191 = neg_mul_add(t168, t173, parameters.actuator_axis[5][1]);
+        let t192 = neg_mul_add(t169, t173, parameters.actuator_axis[5][2]);
+        // leg 1: rod's end mass at the Hooke joint
+        let t193 = parameters.rod_com_fraction[0] - c(1.0);
+        let t194 = parameters.rod_inertia[0] / t115;
+        let t195 = mul_add(t193, parameters.rod_mass[0] * t193, t194);
+        // leg 1: leg mass that moves with the platform joint
+        let t196 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
+        let t197 = mul_add(parameters.rod_com_fraction[0], t196, t194);
+        // leg 1: rod's inertial coupling between its ends
+        let t198 = mul_add(t193, t196, t194);
+        // leg 2: rod's end mass at the Hooke joint
+        let t199 = parameters.rod_com_fraction[1] - c(1.0);
+        let t200 = parameters.rod_inertia[1] / t126;
+        let t201 = mul_add(t199, parameters.rod_mass[1] * t199, t200);
+        // leg 2: leg mass that moves with the platform joint
+        let t202 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
+        let t203 = mul_add(parameters.rod_com_fraction[1], t202, t200);
+        // leg 2: rod's inertial coupling between its ends
+        let t204 = mul_add(t199, t202, t200);
+        // leg 3: rod's end mass at the Hooke joint
+        let t205 = parameters.rod_com_fraction[2] - c(1.0);
+        let t206 = parameters.rod_inertia[2] / t137;
+        let t207 = mul_add(t205, parameters.rod_mass[2] * t205, t206);
+        // leg 3: leg mass that moves with the platform joint
+        let t208 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
+        let t209 = mul_add(parameters.rod_com_fraction[2], t208, t206);
+        // leg 3: rod's inertial coupling between its ends
+        let t210 = mul_add(t205, t208, t206);
+        // leg 4: rod's end mass at the Hooke joint
+        let t211 = parameters.rod_com_fraction[3] - c(1.0);
+        let t212 = parameters.rod_inertia[3] / t148;
+        let t213 = mul_add(t211, parameters.rod_mass[3] * t211, t212);
+        // leg 4: leg mass that moves with the platform joint
+        let t214 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
+        let t215 = mul_add(parameters.rod_com_fraction[3], t214, t212);
+        // leg 4: rod's inertial coupling between its ends
+        let t216 = mul_add(t211, t214, t212);
+        // leg 5: rod's end mass at the Hooke joint
+        let t217 = parameters.rod_com_fraction[4] - c(1.0);
+        let t218 = parameters.rod_inertia[4] / t159;
+        let t219 = mul_add(t217, parameters.rod_mass[4] * t217, t218);
+        // leg 5: leg mass that moves with the platform joint
+        let t220 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
+        let t221 = mul_add(parameters.rod_com_fraction[4], t220, t218);
+        // leg 5: rod's inertial coupling between its ends
+        let t222 = mul_add(t217, t220, t218);
+        // leg 6: rod's end mass at the Hooke joint
+        let t223 = parameters.rod_com_fraction[5] - c(1.0);
+        let t224 = parameters.rod_inertia[5] / t170;
+        let t225 = mul_add(t223, parameters.rod_mass[5] * t223, t224);
+        // leg 6: leg mass that moves with the platform joint
+        let t226 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
+        let t227 = mul_add(parameters.rod_com_fraction[5], t226, t224);
+        // leg 6: rod's inertial coupling between its ends
+        let t228 = mul_add(t223, t226, t224);
+        // mass of payload and platform-side leg ends
+        let t229 = t221 + (t215 + (t209 + (t203 + (parameters.payload_mass + t197))));
+        let t230 = t227 + t229;
+        // first moment of payload and platform-side leg ends
+        let t231 = parameters.platform_point[0][0] * t197;
+        let t232 = mul_add(parameters.payload_mass, parameters.payload_com[0], t231);
+        let t233 = mul_add(parameters.platform_point[1][0], t203, t232);
+        let t234 = mul_add(parameters.platform_point[2][0], t209, t233);
+        let t235 = mul_add(parameters.platform_point[3][0], t215, t234);
+        let t236 = mul_add(parameters.platform_point[4][0], t221, t235);
+        let t237 = mul_add(parameters.platform_point[5][0], t227, t236);
+        let t238 = parameters.platform_point[0][1] * t197;
+        let t239 = mul_add(parameters.payload_mass, parameters.payload_com[1], t238);
+        let t240 = mul_add(parameters.platform_point[1][1], t203, t239);
+        let t241 = mul_add(parameters.platform_point[2][1], t209, t240);
+        let t242 = mul_add(parameters.platform_point[3][1], t215, t241);
+        let t243 = mul_add(parameters.platform_point[4][1], t221, t242);
+        let t244 = mul_add(parameters.platform_point[5][1], t227, t243);
+        let t245 = parameters.platform_point[0][2] * t197;
+        let t246 = mul_add(parameters.payload_mass, parameters.payload_com[2], t245);
+        let t247 = mul_add(parameters.platform_point[1][2], t203, t246);
+        let t248 = mul_add(parameters.platform_point[2][2], t209, t247);
+        let t249 = mul_add(parameters.platform_point[3][2], t215, t248);
+        let t250 = mul_add(parameters.platform_point[4][2], t221, t249);
+        let t251 = mul_add(parameters.platform_point[5][2], t227, t250);
+        // second moment of payload and platform-side leg ends
+        let t252 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+        let t253 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+        let t254 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+        let t255 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+        let t256 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+        let t257 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+        let t258 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t259 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t260 = parameters.payload_inertia[2][2] + t259;
+        let t261 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[0][0]);
+        let t262 = neg_mul_add(parameters.payload_mass, t258, t261);
+        let t263 = neg_mul_add(t203, t256, neg_mul_add(t197, t257, t262));
+        let t264 = neg_mul_add(t215, t254, neg_mul_add(t209, t255, t263));
+        let t265 = neg_mul_add(t227, t252, neg_mul_add(t221, t253, t264));
+        let t266 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
+        let t267 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
+        let t268 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
+        let t269 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
+        let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
+        let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
+        let t272 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
+        let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
+        let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
+        let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
+        let t277 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+        let t278 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+        let t279 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+        let t280 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+        let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+        let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+        let t283 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
+        let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
+        let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
+        let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
+        let t288 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+        let t289 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+        let t290 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+        let t291 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+        let t292 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+        let t293 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+        let t294 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t295 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[1][1]);
+        let t296 = neg_mul_add(parameters.payload_mass, t294, t295);
+        let t297 = neg_mul_add(t203, t292, neg_mul_add(t197, t293, t296));
+        let t298 = neg_mul_add(t215, t290, neg_mul_add(t209, t291, t297));
+        let t299 = neg_mul_add(t227, t288, neg_mul_add(t221, t289, t298));
+        let t300 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+        let t301 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+        let t302 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+        let t303 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+        let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+        let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+        let t306 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
+        let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
+        let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
+        let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
+        let t311 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+        let t312 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+        let t313 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+        let t314 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+        let t315 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+        let t316 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+        let t317 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t318 = neg_mul_add(t260, c(0.5), parameters.payload_inertia[2][2]);
+        let t319 = neg_mul_add(parameters.payload_mass, t317, t318);
+        let t320 = neg_mul_add(t203, t315, neg_mul_add(t197, t316, t319));
+        let t321 = neg_mul_add(t215, t313, neg_mul_add(t209, t314, t320));
+        let t322 = neg_mul_add(t227, t311, neg_mul_add(t221, t312, t321));
+        // angular velocity of the base
+        let t323 = base_rotation[1][0] * base_velocity[4];
+        let t324 = mul_add(base_rotation[0][0], base_velocity[3], t323);
+        let t325 = mul_add(base_rotation[2][0], base_velocity[5], t324);
+        let t326 = base_rotation[1][1] * base_velocity[4];
+        let t327 = mul_add(base_rotation[0][1], base_velocity[3], t326);
+        let t328 = mul_add(base_rotation[2][1], base_velocity[5], t327);
+        let t329 = base_rotation[1][2] * base_velocity[4];
+        let t330 = mul_add(base_rotation[0][2], base_velocity[3], t329);
+        let t331 = mul_add(base_rotation[2][2], base_velocity[5], t330);
+        // angular velocity of the platform
+        let t332 = base_rotation[1][0] * platform_velocity[4];
+        let t333 = mul_add(base_rotation[0][0], platform_velocity[3], t332);
+        let t334 = mul_add(base_rotation[2][0], platform_velocity[5], t333);
+        let t335 = base_rotation[1][1] * platform_velocity[4];
+        let t336 = mul_add(base_rotation[0][1], platform_velocity[3], t335);
+        let t337 = mul_add(base_rotation[2][1], platform_velocity[5], t336);
+        let t338 = base_rotation[1][2] * platform_velocity[4];
+        let t339 = mul_add(base_rotation[0][2], platform_velocity[3], t338);
+        let t340 = mul_add(base_rotation[2][2], platform_velocity[5], t339);
+        // angular velocity of the platform relative to the base
+        let t341 = t325 - t334;
+        let t342 = t328 - t337;
+        let t343 = t331 - t340;
+        // velocity of the platform origin relative to the base
+        let t344 = base_velocity[2] - platform_velocity[2];
+        let t345 = base_velocity[0] - platform_velocity[0];
+        let t346 = base_velocity[1] - platform_velocity[1];
+        let t347 = mul_add(base_rotation[0][0], t345, base_rotation[1][0] * t346);
+        let t348 = neg_mul_add(t36, t328, mul_add(base_rotation[2][0], t344, t347));
+        let t349 = mul_add(t34, t331, t348);
+        let t350 = mul_add(base_rotation[0][1], t345, base_rotation[1][1] * t346);
+        let t351 = neg_mul_add(t32, t331, mul_add(base_rotation[2][1], t344, t350));
+        let t352 = mul_add(t36, t325, t351);
+        let t353 = mul_add(base_rotation[0][2], t345, base_rotation[1][2] * t346);
+        let t354 = neg_mul_add(t34, t325, mul_add(base_rotation[2][2], t344, t353));
+        let t355 = mul_add(t32, t328, t354);
+        // leg 1: velocity of the platform joint relative to the base
+        let t356 = neg_mul_add(t42, t343, mul_add(t45, t342, t349));
+        let t357 = neg_mul_add(t45, t341, mul_add(t39, t343, t352));
+        let t358 = neg_mul_add(t39, t342, mul_add(t42, t341, t355));
+        // leg 2: velocity of the platform joint relative to the base
+        let t359 = neg_mul_add(t54, t343, mul_add(t57, t342, t349));
+        let t360 = neg_mul_add(t57, t341, mul_add(t51, t343, t352));
+        let t361 = neg_mul_add(t51, t342, mul_add(t54, t341, t355));
+        // leg 3: velocity of the platform joint relative to the base
+        let t362 = neg_mul_add(t66, t343, mul_add(t69, t342, t349));
+        let t363 = neg_mul_add(t69, t341, mul_add(t63, t343, t352));
+        let t364 = neg_mul_add(t63, t342, mul_add(t66, t341, t355));
+        // leg 4: velocity of the platform joint relative to the base
+        let t365 = neg_mul_add(t78, t343, mul_add(t81, t342, t349));
+        let t366 = neg_mul_add(t81, t341, mul_add(t75, t343, t352));
+        let t367 = neg_mul_add(t75, t342, mul_add(t78, t341, t355));
+        // leg 5: velocity of the platform joint relative to the base
+        let t368 = neg_mul_add(t90, t343, mul_add(t93, t342, t349));
+        let t369 = neg_mul_add(t93, t341, mul_add(t87, t343, t352));
+        let t370 = neg_mul_add(t87, t342, mul_add(t90, t341, t355));
+        // leg 6: velocity of the platform joint relative to the base
+        let t371 = neg_mul_add(t102, t343, mul_add(t105, t342, t349));
+        let t372 = neg_mul_add(t105, t341, mul_add(t99, t343, t352));
+        let t373 = neg_mul_add(t99, t342, mul_add(t102, t341, t355));
+        // leg 1: rate of the offset from the actuator axis
+        let t374 = parameters.actuator_axis[0][1] * t357;
+        let t375 = mul_add(parameters.actuator_axis[0][0], t356, t374);
+        let t376 = mul_add(parameters.actuator_axis[0][2], t358, t375);
+        let t377 = neg_mul_add(parameters.actuator_axis[0][0], t376, t356);
+        let t378 = neg_mul_add(parameters.actuator_axis[0][1], t376, t357);
+        let t379 = neg_mul_add(parameters.actuator_axis[0][2], t376, t358);
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t380 = mul_add(t177, t358, mul_add(t175, t356, t176 * t357));
+        let t381 = t376 - t380;
+        // leg 2: rate of the offset from the actuator axis
+        let t382 = parameters.actuator_axis[1][1] * t360;
+        let t383 = mul_add(parameters.actuator_axis[1][0], t359, t382);
+        let t384 = mul_add(parameters.actuator_axis[1][2], t361, t383);
+        let t385 = neg_mul_add(parameters.actuator_axis[1][0], t384, t359);
+        let t386 = neg_mul_add(parameters.actuator_axis[1][1], t384, t360);
+        let t387 = neg_mul_add(parameters.actuator_axis[1][2], t384, t361);
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t388 = mul_add(t180, t361, mul_add(t178, t359, t179 * t360));
+        let t389 = t384 - t388;
+        // leg 3: rate of the offset from the actuator axis
+        let t390 = parameters.actuator_axis[2][1] * t363;
+        let t391 = mul_add(parameters.actuator_axis[2][0], t362, t390);
+        let t392 = mul_add(parameters.actuator_axis[2][2], t364, t391);
+        let t393 = neg_mul_add(parameters.actuator_axis[2][0], t392, t362);
+        let t394 = neg_mul_add(parameters.actuator_axis[2][1], t392, t363);
+        let t395 = neg_mul_add(parameters.actuator_axis[2][2], t392, t364);
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t396 = mul_add(t183, t364, mul_add(t181, t362, t182 * t363));
+        let t397 = t392 - t396;
+        // leg 4: rate of the offset from the actuator axis
+        let t398 = parameters.actuator_axis[3][1] * t366;
+        let t399 = mul_add(parameters.actuator_axis[3][0], t365, t398);
+        let t400 = mul_add(parameters.actuator_axis[3][2], t367, t399);
+        let t401 = neg_mul_add(parameters.actuator_axis[3][0], t400, t365);
+        let t402 = neg_mul_add(parameters.actuator_axis[3][1], t400, t366);
+        let t403 = neg_mul_add(parameters.actuator_axis[3][2], t400, t367);
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t404 = mul_add(t186, t367, mul_add(t184, t365, t185 * t366));
+        let t405 = t400 - t404;
+        // leg 5: rate of the offset from the actuator axis
+        let t406 = parameters.actuator_axis[4][1] * t369;
+        let t407 = mul_add(parameters.actuator_axis[4][0], t368, t406);
+        let t408 = mul_add(parameters.actuator_axis[4][2], t370, t407);
+        let t409 = neg_mul_add(parameters.actuator_axis[4][0], t408, t368);
+        let t410 = neg_mul_add(parameters.actuator_axis[4][1], t408, t369);
+        let t411 = neg_mul_add(parameters.actuator_axis[4][2], t408, t370);
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t412 = mul_add(t189, t370, mul_add(t187, t368, t188 * t369));
+        let t413 = t408 - t412;
+        // leg 6: rate of the offset from the actuator axis
+        let t414 = parameters.actuator_axis[5][1] * t372;
+        let t415 = mul_add(parameters.actuator_axis[5][0], t371, t414);
+        let t416 = mul_add(parameters.actuator_axis[5][2], t373, t415);
+        let t417 = neg_mul_add(parameters.actuator_axis[5][0], t416, t371);
+        let t418 = neg_mul_add(parameters.actuator_axis[5][1], t416, t372);
+        let t419 = neg_mul_add(parameters.actuator_axis[5][2], t416, t373);
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t420 = mul_add(t192, t373, mul_add(t190, t371, t191 * t372));
+        let t421 = t416 - t420;
+        // acceleration of the base origin less gravity
+        let t422 = base_acceleration[2] - parameters.gravity[2];
+        let t423 = base_acceleration[0] - parameters.gravity[0];
+        let t424 = base_acceleration[1] - parameters.gravity[1];
+        let t425 = mul_add(base_rotation[0][0], t423, base_rotation[1][0] * t424);
+        let t426 = mul_add(base_rotation[2][0], t422, t425);
+        let t427 = mul_add(base_rotation[0][1], t423, base_rotation[1][1] * t424);
+        let t428 = mul_add(base_rotation[2][1], t422, t427);
+        let t429 = mul_add(base_rotation[0][2], t423, base_rotation[1][2] * t424);
+        let t430 = mul_add(base_rotation[2][2], t422, t429);
+        // angular acceleration of the base
+        let t431 = base_rotation[1][0] * base_acceleration[4];
+        let t432 = mul_add(base_rotation[0][0], base_acceleration[3], t431);
+        let t433 = mul_add(base_rotation[2][0], base_acceleration[5], t432);
+        let t434 = base_rotation[1][1] * base_acceleration[4];
+        let t435 = mul_add(base_rotation[0][1], base_acceleration[3], t434);
+        let t436 = mul_add(base_rotation[2][1], base_acceleration[5], t435);
+        let t437 = base_rotation[1][2] * base_acceleration[4];
+        let t438 = mul_add(base_rotation[0][2], base_acceleration[3], t437);
+        let t439 = mul_add(base_rotation[2][2], base_acceleration[5], t438);
+        // acceleration per base coordinate of points that move with the base
+        let t440 = mul_add(t328, t328, t331 * t331);
+        let t441 = neg_mul_add(t325, t328, t439);
+        let t442 = mul_add(t325, t331, t436);
+        let t443 = mul_add(t325, t328, t439);
+        let t444 = t325 * t325;
+        let t445 = mul_add(t331, t331, t444);
+        let t446 = neg_mul_add(t328, t331, t433);
+        let t447 = neg_mul_add(t325, t331, t436);
+        let t448 = mul_add(t328, t331, t433);
+        let t449 = mul_add(t328, t328, t444);
+        // acceleration of the platform origin less gravity
+        let t450 = platform_acceleration[2] - parameters.gravity[2];
+        let t451 = platform_acceleration[0] - parameters.gravity[0];
+        let t452 = platform_acceleration[1] - parameters.gravity[1];
+        let t453 = mul_add(base_rotation[0][0], t451, base_rotation[1][0] * t452);
+        let t454 = mul_add(base_rotation[2][0], t450, t453);
+        let t455 = mul_add(base_rotation[0][1], t451, base_rotation[1][1] * t452);
+        let t456 = mul_add(base_rotation[2][1], t450, t455);
+        let t457 = mul_add(base_rotation[0][2], t451, base_rotation[1][2] * t452);
+        let t458 = mul_add(base_rotation[2][2], t450, t457);
+        // angular acceleration of the platform
+        let t459 = base_rotation[1][0] * platform_acceleration[4];
+        let t460 = mul_add(base_rotation[0][0], platform_acceleration[3], t459);
+        let t461 = mul_add(base_rotation[2][0], platform_acceleration[5], t460);
+        let t462 = base_rotation[1][1] * platform_acceleration[4];
+        let t463 = mul_add(base_rotation[0][1], platform_acceleration[3], t462);
+        let t464 = mul_add(base_rotation[2][1], platform_acceleration[5], t463);
+        let t465 = base_rotation[1][2] * platform_acceleration[4];
+        let t466 = mul_add(base_rotation[0][2], platform_acceleration[3], t465);
+        let t467 = mul_add(base_rotation[2][2], platform_acceleration[5], t466);
+        // acceleration per platform coordinate of points of the platform
+        let t468 = mul_sub(t3, t340, t21 * t334);
+        let t469 = mul_sub(t12, t334, t3 * t337);
+        let t470 = mul_add(t337, t469, mul_sub(t21, t464, t12 * t467));
+        let t471 = neg_mul_add(t340, t468, t470);
+        let t472 = mul_sub(t6, t340, t24 * t334);
+        let t473 = mul_sub(t15, t334, t6 * t337);
+        let t474 = mul_add(t337, t473, mul_sub(t24, t464, t15 * t467));
+        let t475 = neg_mul_add(t340, t472, t474);
+        let t476 = mul_sub(t9, t340, t27 * t334);
+        let t477 = mul_sub(t18, t334, t9 * t337);
+        let t478 = mul_add(t337, t477, mul_sub(t27, t464, t18 * t467));
+        let t479 = neg_mul_add(t340, t476, t478);
+        let t480 = mul_sub(t21, t337, t12 * t340);
+        let t481 = mul_add(t340, t480, mul_sub(t3, t467, t21 * t461));
+        let t482 = neg_mul_add(t334, t469, t481);
+        let t483 = mul_sub(t24, t337, t15 * t340);
+        let t484 = mul_add(t340, t483, mul_sub(t6, t467, t24 * t461));
+        let t485 = neg_mul_add(t334, t473, t484);
+        let t486 = mul_sub(t27, t337, t18 * t340);
+        let t487 = mul_add(t340, t486, mul_sub(t9, t467, t27 * t461));
+        let t488 = neg_mul_add(t334, t477, t487);
+        let t489 = mul_add(t334, t468, mul_sub(t12, t461, t3 * t464));
+        let t490 = neg_mul_add(t337, t480, t489);
+        let t491 = mul_add(t334, t472, mul_sub(t15, t461, t6 * t464));
+        let t492 = neg_mul_add(t337, t483, t491);
+        let t493 = mul_add(t334, t476, mul_sub(t18, t461, t9 * t464));
+        let t494 = neg_mul_add(t337, t486, t493);
+        // acceleration of the platform origin relative to the base, less w x v
+        let t495 = neg_mul_add(t36, t442, t426 - t454);
+        let t496 = mul_add(t32, t440, t34 * t441) + t495;
+        let t497 = t328 + t337;
+        let t498 = t331 + t340;
+        let t499 = t496 - mul_sub(t355, t497, t352 * t498);
+        let t500 = mul_sub(t32, t443, t34 * t445);
+        let t501 = mul_add(t36, t446, t428 - t456) - t500;
+        let t502 = t325 + t334;
+        let t503 = t501 - mul_sub(t349, t498, t355 * t502);
+        let t504 = mul_add(t36, t449, t430 - t458);
+        let t505 = mul_sub(t32, t447, t34 * t448) + t504;
+        let t506 = t505 - mul_sub(t352, t502, t349 * t497);
+        // rate of that angular velocity
+        let t507 = mul_add(t331, t342, neg_mul_add(t328, t343, t433 - t461));
+        let t508 = mul_add(t325, t343, neg_mul_add(t331, t341, t436 - t464));
+        let t509 = mul_add(t328, t341, neg_mul_add(t325, t342, t439 - t467));
+        // leg 1: acceleration of the platform joint relative to the base
+        let t510 = neg_mul_add(t42, t509, mul_add(t45, t508, t499));
+        let t511 = t510 - mul_sub(t342, t358, t343 * t357);
+        let t512 = neg_mul_add(t45, t507, mul_add(t39, t509, t503));
+        let t513 = t512 - mul_sub(t343, t356, t341 * t358);
+        let t514 = neg_mul_add(t39, t508, mul_add(t42, t507, t506));
+        let t515 = t514 - mul_sub(t341, t357, t342 * t356);
+        // leg 2: acceleration of the platform joint relative to the base
+        let t516 = neg_mul_add(t54, t509, mul_add(t57, t508, t499));
+        let t517 = t516 - mul_sub(t342, t361, t343 * t360);
+        let t518 = neg_mul_add(t57, t507, mul_add(t51, t509, t503));
+        let t519 = t518 - mul_sub(t343, t359, t341 * t361);
+        let t520 = neg_mul_add(t51, t508, mul_add(t54, t507, t506));
+        let t521 = t520 - mul_sub(t341, t360, t342 * t359);
+        // leg 3: acceleration of the platform joint relative to the base
+        let t522 = neg_mul_add(t66, t509, mul_add(t69, t508, t499));
+        let t523 = t522 - mul_sub(t342, t364, t343 * t363);
+        let t524 = neg_mul_add(t69, t507, mul_add(t63, t509, t503));
+        let t525 = t524 - mul_sub(t343, t362, t341 * t364);
+        let t526 = neg_mul_add(t63, t508, mul_add(t66, t507, t506));
+        let t527 = t526 - mul_sub(t341, t363, t342 * t362);
+        // leg 4: acceleration of the platform joint relative to the base
+        let t528 = neg_mul_add(t78, t509, mul_add(t81, t508, t499));
+        let t529 = t528 - mul_sub(t342, t367, t343 * t366);
+        let t530 = neg_mul_add(t81, t507, mul_add(t75, t509, t503));
+        let t531 = t530 - mul_sub(t343, t365, t341 * t367);
+        let t532 = neg_mul_add(t75, t508, mul_add(t78, t507, t506));
+        let t533 = t532 - mul_sub(t341, t366, t342 * t365);
+        // leg 5: acceleration of the platform joint relative to the base
+        let t534 = neg_mul_add(t90, t509, mul_add(t93, t508, t499));
+        let t535 = t534 - mul_sub(t342, t370, t343 * t369);
+        let t536 = neg_mul_add(t93, t507, mul_add(t87, t509, t503));
+        let t537 = t536 - mul_sub(t343, t368, t341 * t370);
+        let t538 = neg_mul_add(t87, t508, mul_add(t90, t507, t506));
+        let t539 = t538 - mul_sub(t341, t369, t342 * t368);
+        // leg 6: acceleration of the platform joint relative to the base
+        let t540 = neg_mul_add(t102, t509, mul_add(t105, t508, t499));
+        let t541 = t540 - mul_sub(t342, t373, t343 * t372);
+        let t542 = neg_mul_add(t105, t507, mul_add(t99, t509, t503));
+        let t543 = t542 - mul_sub(t343, t371, t341 * t373);
+        let t544 = neg_mul_add(t99, t508, mul_add(t102, t507, t506));
+        let t545 = t544 - mul_sub(t341, t372, t342 * t371);
+        // leg 1: actuator acceleration d''
+        let t546 = mul_add(t379, t379, mul_add(t377, t377, t378 * t378));
+        let t547 = mul_add(t177, t515, mul_add(t175, t511, t176 * t513));
+        let t548 = neg_mul_add(t118, mul_add(t381, t381, t546), t547);
+        // leg 2: actuator acceleration d''
+        let t549 = mul_add(t387, t387, mul_add(t385, t385, t386 * t386));
+        let t550 = mul_add(t180, t521, mul_add(t178, t517, t179 * t519));
+        let t551 = neg_mul_add(t129, mul_add(t389, t389, t549), t550);
+        // leg 3: actuator acceleration d''
+        let t552 = mul_add(t395, t395, mul_add(t393, t393, t394 * t394));
+        let t553 = mul_add(t183, t527, mul_add(t181, t523, t182 * t525));
+        let t554 = neg_mul_add(t140, mul_add(t397, t397, t552), t553);
+        // leg 4: actuator acceleration d''
+        let t555 = mul_add(t403, t403, mul_add(t401, t401, t402 * t402));
+        let t556 = mul_add(t186, t533, mul_add(t184, t529, t185 * t531));
+        let t557 = neg_mul_add(t151, mul_add(t405, t405, t555), t556);
+        // leg 5: actuator acceleration d''
+        let t558 = mul_add(t411, t411, mul_add(t409, t409, t410 * t410));
+        let t559 = mul_add(t189, t539, mul_add(t187, t535, t188 * t537));
+        let t560 = neg_mul_add(t162, mul_add(t413, t413, t558), t559);
+        // leg 6: actuator acceleration d''
+        let t561 = mul_add(t419, t419, mul_add(t417, t417, t418 * t418));
+        let t562 = mul_add(t192, t545, mul_add(t190, t541, t191 * t543));
+        let t563 = neg_mul_add(t173, mul_add(t421, t421, t561), t562);
+        // leg 1: leg inertia less weight along the actuator
+        let t564 = c(2.0) * t380;
+        let t565 = parameters.actuator_axis[0][1] * t331;
+        let t566 = mul_sub(parameters.actuator_axis[0][2], t328, t565);
+        let t567 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t568 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t569 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
+        let t570 = mul_add(t442, t567, t426) - mul_add(t440, t568, t441 * t569);
+        let t571 = neg_mul_add(t564, t566, t570);
+        let t572 = neg_mul_add(parameters.actuator_axis[0][0], t548, t571);
+        let t573 = parameters.actuator_axis[0][2] * t325;
+        let t574 = mul_sub(parameters.actuator_axis[0][0], t331, t573);
+        let t575 = mul_sub(t443, t568, t445 * t569);
+        let t576 = neg_mul_add(t564, t574, t575 + neg_mul_add(t446, t567, t428));
+        let t577 = neg_mul_add(parameters.actuator_axis[0][1], t548, t576);
+        let t578 = parameters.actuator_axis[0][0] * t328;
+        let t579 = mul_sub(parameters.actuator_axis[0][1], t325, t578);
+        let t580 = mul_sub(t447, t568, t448 * t569);
+        let t581 = neg_mul_add(t564, t579, neg_mul_add(t449, t567, t430) - t580);
+        let t582 = neg_mul_add(parameters.actuator_axis[0][2], t548, t581);
+        let t583 = mul_add(t579, t579, mul_add(t566, t566, t574 * t574));
+        let t584 = parameters.actuator_axis[0][1] * t577;
+        let t585 = mul_add(parameters.actuator_axis[0][0], t572, t584);
+        let t586 = mul_add(parameters.actuator_axis[0][2], t582, t585);
+        let t587 = mul_add(parameters.mover_offset[0], t583, t586);
+        let t588 = parameters.platform_point[0][1] * t492;
+        let t589 = mul_add(parameters.platform_point[0][2], t494, t458);
+        let t590 = mul_add(parameters.platform_point[0][0], t490, t588) + t589;
+        let t591 = parameters.platform_point[0][1] * t475;
+        let t592 = mul_add(parameters.platform_point[0][2], t479, t454);
+        let t593 = mul_add(parameters.platform_point[0][0], t471, t591) + t592;
+        let t594 = parameters.platform_point[0][1] * t485;
+        let t595 = mul_add(parameters.platform_point[0][2], t488, t456);
+        let t596 = mul_add(parameters.platform_point[0][0], t482, t594) + t595;
+        let t597 = parameters.actuator_axis[0][1] * t596;
+        let t598 = mul_add(parameters.actuator_axis[0][0], t593, t597);
+        let t599 = t198 * mul_add(parameters.actuator_axis[0][2], t590, t598);
+        let t600 = mul_add(parameters.mover_mass[0], t587, mul_sub(t195, t586, t599));
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t601 = t198 * t572;
+        let t602 = t198 * t577;
+        let t603 = t198 * t582;
+        // leg 2: leg inertia less weight along the actuator
+        let t604 = c(2.0) * t388;
+        let t605 = parameters.actuator_axis[1][1] * t331;
+        let t606 = mul_sub(parameters.actuator_axis[1][2], t328, t605);
+        let t607 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t608 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t609 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
+        let t610 = mul_add(t442, t607, t426) - mul_add(t440, t608, t441 * t609);
+        let t611 = neg_mul_add(t604, t606, t610);
+        let t612 = neg_mul_add(parameters.actuator_axis[1][0], t551, t611);
+        let t613 = parameters.actuator_axis[1][2] * t325;
+        let t614 = mul_sub(parameters.actuator_axis[1][0], t331, t613);
+        let t615 = mul_sub(t443, t608, t445 * t609);
+        let t616 = neg_mul_add(t604, t614, t615 + neg_mul_add(t446, t607, t428));
+        let t617 = neg_mul_add(parameters.actuator_axis[1][1], t551, t616);
+        let t618 = parameters.actuator_axis[1][0] * t328;
+        let t619 = mul_sub(parameters.actuator_axis[1][1], t325, t618);
+        let t620 = mul_sub(t447, t608, t448 * t609);
+        let t621 = neg_mul_add(t604, t619, neg_mul_add(t449, t607, t430) - t620);
+        let t622 = neg_mul_add(parameters.actuator_axis[1][2], t551, t621);
+        let t623 = mul_add(t619, t619, mul_add(t606, t606, t614 * t614));
+        let t624 = parameters.actuator_axis[1][1] * t617;
+        let t625 = mul_add(parameters.actuator_axis[1][0], t612, t624);
+        let t626 = mul_add(parameters.actuator_axis[1][2], t622, t625);
+        let t627 = mul_add(parameters.mover_offset[1], t623, t626);
+        let t628 = parameters.platform_point[1][1] * t492;
+        let t629 = mul_add(parameters.platform_point[1][2], t494, t458);
+        let t630 = mul_add(parameters.platform_point[1][0], t490, t628) + t629;
+        let t631 = parameters.platform_point[1][1] * t475;
+        let t632 = mul_add(parameters.platform_point[1][2], t479, t454);
+        let t633 = mul_add(parameters.platform_point[1][0], t471, t631) + t632;
+        let t634 = parameters.platform_point[1][1] * t485;
+        let t635 = mul_add(parameters.platform_point[1][2], t488, t456);
+        let t636 = mul_add(parameters.platform_point[1][0], t482, t634) + t635;
+        let t637 = parameters.actuator_axis[1][1] * t636;
+        let t638 = mul_add(parameters.actuator_axis[1][0], t633, t637);
+        let t639 = t204 * mul_add(parameters.actuator_axis[1][2], t630, t638);
+        let t640 = mul_add(parameters.mover_mass[1], t627, mul_sub(t201, t626, t639));
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t641 = t204 * t612;
+        let t642 = t204 * t617;
+        let t643 = t204 * t622;
+        // leg 3: leg inertia less weight along the actuator
+        let t644 = c(2.0) * t396;
+        let t645 = parameters.actuator_axis[2][1] * t331;
+        let t646 = mul_sub(parameters.actuator_axis[2][2], t328, t645);
+        let t647 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t648 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t649 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
+        let t650 = mul_add(t442, t647, t426) - mul_add(t440, t648, t441 * t649);
+        let t651 = neg_mul_add(t644, t646, t650);
+        let t652 = neg_mul_add(parameters.actuator_axis[2][0], t554, t651);
+        let t653 = parameters.actuator_axis[2][2] * t325;
+        let t654 = mul_sub(parameters.actuator_axis[2][0], t331, t653);
+        let t655 = mul_sub(t443, t648, t445 * t649);
+        let t656 = neg_mul_add(t644, t654, t655 + neg_mul_add(t446, t647, t428));
+        let t657 = neg_mul_add(parameters.actuator_axis[2][1], t554, t656);
+        let t658 = parameters.actuator_axis[2][0] * t328;
+        let t659 = mul_sub(parameters.actuator_axis[2][1], t325, t658);
+        let t660 = mul_sub(t447, t648, t448 * t649);
+        let t661 = neg_mul_add(t644, t659, neg_mul_add(t449, t647, t430) - t660);
+        let t662 = neg_mul_add(parameters.actuator_axis[2][2], t554, t661);
+        let t663 = mul_add(t659, t659, mul_add(t646, t646, t654 * t654));
+        let t664 = parameters.actuator_axis[2][1] * t657;
+        let t665 = mul_add(parameters.actuator_axis[2][0], t652, t664);
+        let t666 = mul_add(parameters.actuator_axis[2][2], t662, t665);
+        let t667 = mul_add(parameters.mover_offset[2], t663, t666);
+        let t668 = parameters.platform_point[2][1] * t492;
+        let t669 = mul_add(parameters.platform_point[2][2], t494, t458);
+        let t670 = mul_add(parameters.platform_point[2][0], t490, t668) + t669;
+        let t671 = parameters.platform_point[2][1] * t475;
+        let t672 = mul_add(parameters.platform_point[2][2], t479, t454);
+        let t673 = mul_add(parameters.platform_point[2][0], t471, t671) + t672;
+        let t674 = parameters.platform_point[2][1] * t485;
+        let t675 = mul_add(parameters.platform_point[2][2], t488, t456);
+        let t676 = mul_add(parameters.platform_point[2][0], t482, t674) + t675;
+        let t677 = parameters.actuator_axis[2][1] * t676;
+        let t678 = mul_add(parameters.actuator_axis[2][0], t673, t677);
+        let t679 = t210 * mul_add(parameters.actuator_axis[2][2], t670, t678);
+        let t680 = mul_add(parameters.mover_mass[2], t667, mul_sub(t207, t666, t679));
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t681 = t210 * t652;
+        let t682 = t210 * t657;
+        let t683 = t210 * t662;
+        // leg 4: leg inertia less weight along the actuator
+        let t684 = c(2.0) * t404;
+        let t685 = parameters.actuator_axis[3][1] * t331;
+        let t686 = mul_sub(parameters.actuator_axis[3][2], t328, t685);
+        let t687 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t688 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t689 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
+        let t690 = mul_add(t442, t687, t426) - mul_add(t440, t688, t441 * t689);
+        let t691 = neg_mul_add(t684, t686, t690);
+        let t692 = neg_mul_add(parameters.actuator_axis[3][0], t557, t691);
+        let t693 = parameters.actuator_axis[3][2] * t325;
+        let t694 = mul_sub(parameters.actuator_axis[3][0], t331, t693);
+        let t695 = mul_sub(t443, t688, t445 * t689);
+        let t696 = neg_mul_add(t684, t694, t695 + neg_mul_add(t446, t687, t428));
+        let t697 = neg_mul_add(parameters.actuator_axis[3][1], t557, t696);
+        let t698 = parameters.actuator_axis[3][0] * t328;
+        let t699 = mul_sub(parameters.actuator_axis[3][1], t325, t698);
+        let t700 = mul_sub(t447, t688, t448 * t689);
+        let t701 = neg_mul_add(t684, t699, neg_mul_add(t449, t687, t430) - t700);
+        let t702 = neg_mul_add(parameters.actuator_axis[3][2], t557, t701);
+        let t703 = mul_add(t699, t699, mul_add(t686, t686, t694 * t694));
+        let t704 = parameters.actuator_axis[3][1] * t697;
+        let t705 = mul_add(parameters.actuator_axis[3][0], t692, t704);
+        let t706 = mul_add(parameters.actuator_axis[3][2], t702, t705);
+        let t707 = mul_add(parameters.mover_offset[3], t703, t706);
+        let t708 = parameters.platform_point[3][1] * t492;
+        let t709 = mul_add(parameters.platform_point[3][2], t494, t458);
+        let t710 = mul_add(parameters.platform_point[3][0], t490, t708) + t709;
+        let t711 = parameters.platform_point[3][1] * t475;
+        let t712 = mul_add(parameters.platform_point[3][2], t479, t454);
+        let t713 = mul_add(parameters.platform_point[3][0], t471, t711) + t712;
+        let t714 = parameters.platform_point[3][1] * t485;
+        let t715 = mul_add(parameters.platform_point[3][2], t488, t456);
+        let t716 = mul_add(parameters.platform_point[3][0], t482, t714) + t715;
+        let t717 = parameters.actuator_axis[3][1] * t716;
+        let t718 = mul_add(parameters.actuator_axis[3][0], t713, t717);
+        let t719 = t216 * mul_add(parameters.actuator_axis[3][2], t710, t718);
+        let t720 = mul_add(parameters.mover_mass[3], t707, mul_sub(t213, t706, t719));
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t721 = t216 * t692;
+        let t722 = t216 * t697;
+        let t723 = t216 * t702;
+        // leg 5: leg inertia less weight along the actuator
+        let t724 = c(2.0) * t412;
+        let t725 = parameters.actuator_axis[4][1] * t331;
+        let t726 = mul_sub(parameters.actuator_axis[4][2], t328, t725);
+        let t727 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t728 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t729 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
+        let t730 = mul_add(t442, t727, t426) - mul_add(t440, t728, t441 * t729);
+        let t731 = neg_mul_add(t724, t726, t730);
+        let t732 = neg_mul_add(parameters.actuator_axis[4][0], t560, t731);
+        let t733 = parameters.actuator_axis[4][2] * t325;
+        let t734 = mul_sub(parameters.actuator_axis[4][0], t331, t733);
+        let t735 = mul_sub(t443, t728, t445 * t729);
+        let t736 = neg_mul_add(t724, t734, t735 + neg_mul_add(t446, t727, t428));
+        let t737 = neg_mul_add(parameters.actuator_axis[4][1], t560, t736);
+        let t738 = parameters.actuator_axis[4][0] * t328;
+        let t739 = mul_sub(parameters.actuator_axis[4][1], t325, t738);
+        let t740 = mul_sub(t447, t728, t448 * t729);
+        let t741 = neg_mul_add(t724, t739, neg_mul_add(t449, t727, t430) - t740);
+        let t742 = neg_mul_add(parameters.actuator_axis[4][2], t560, t741);
+        let t743 = mul_add(t739, t739, mul_add(t726, t726, t734 * t734));
+        let t744 = parameters.actuator_axis[4][1] * t737;
+        let t745 = mul_add(parameters.actuator_axis[4][0], t732, t744);
+        let t746 = mul_add(parameters.actuator_axis[4][2], t742, t745);
+        let t747 = mul_add(parameters.mover_offset[4], t743, t746);
+        let t748 = parameters.platform_point[4][1] * t492;
+        let t749 = mul_add(parameters.platform_point[4][2], t494, t458);
+        let t750 = mul_add(parameters.platform_point[4][0], t490, t748) + t749;
+        let t751 = parameters.platform_point[4][1] * t475;
+        let t752 = mul_add(parameters.platform_point[4][2], t479, t454);
+        let t753 = mul_add(parameters.platform_point[4][0], t471, t751) + t752;
+        let t754 = parameters.platform_point[4][1] * t485;
+        let t755 = mul_add(parameters.platform_point[4][2], t488, t456);
+        let t756 = mul_add(parameters.platform_point[4][0], t482, t754) + t755;
+        let t757 = parameters.actuator_axis[4][1] * t756;
+        let t758 = mul_add(parameters.actuator_axis[4][0], t753, t757);
+        let t759 = t222 * mul_add(parameters.actuator_axis[4][2], t750, t758);
+        let t760 = mul_add(parameters.mover_mass[4], t747, mul_sub(t219, t746, t759));
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t761 = t222 * t732;
+        let t762 = t222 * t737;
+        let t763 = t222 * t742;
+        // leg 6: leg inertia less weight along the actuator
+        let t764 = c(2.0) * t420;
+        let t765 = parameters.actuator_axis[5][1] * t331;
+        let t766 = mul_sub(parameters.actuator_axis[5][2], t328, t765);
+        let t767 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t768 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t769 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
+        let t770 = mul_add(t442, t767, t426) - mul_add(t440, t768, t441 * t769);
+        let t771 = neg_mul_add(t764, t766, t770);
+        let t772 = neg_mul_add(parameters.actuator_axis[5][0], t563, t771);
+        let t773 = parameters.actuator_axis[5][2] * t325;
+        let t774 = mul_sub(parameters.actuator_axis[5][0], t331, t773);
+        let t775 = mul_sub(t443, t768, t445 * t769);
+        let t776 = neg_mul_add(t764, t774, t775 + neg_mul_add(t446, t767, t428));
+        let t777 = neg_mul_add(parameters.actuator_axis[5][1], t563, t776);
+        let t778 = parameters.actuator_axis[5][0] * t328;
+        let t779 = mul_sub(parameters.actuator_axis[5][1], t325, t778);
+        let t780 = mul_sub(t447, t768, t448 * t769);
+        let t781 = neg_mul_add(t764, t779, neg_mul_add(t449, t767, t430) - t780);
+        let t782 = neg_mul_add(parameters.actuator_axis[5][2], t563, t781);
+        let t783 = mul_add(t779, t779, mul_add(t766, t766, t774 * t774));
+        let t784 = parameters.actuator_axis[5][1] * t777;
+        let t785 = mul_add(parameters.actuator_axis[5][0], t772, t784);
+        let t786 = mul_add(parameters.actuator_axis[5][2], t782, t785);
+        let t787 = mul_add(parameters.mover_offset[5], t783, t786);
+        let t788 = parameters.platform_point[5][1] * t492;
+        let t789 = mul_add(parameters.platform_point[5][2], t494, t458);
+        let t790 = mul_add(parameters.platform_point[5][0], t490, t788) + t789;
+        let t791 = parameters.platform_point[5][1] * t475;
+        let t792 = mul_add(parameters.platform_point[5][2], t479, t454);
+        let t793 = mul_add(parameters.platform_point[5][0], t471, t791) + t792;
+        let t794 = parameters.platform_point[5][1] * t485;
+        let t795 = mul_add(parameters.platform_point[5][2], t488, t456);
+        let t796 = mul_add(parameters.platform_point[5][0], t482, t794) + t795;
+        let t797 = parameters.actuator_axis[5][1] * t796;
+        let t798 = mul_add(parameters.actuator_axis[5][0], t793, t797);
+        let t799 = t228 * mul_add(parameters.actuator_axis[5][2], t790, t798);
+        let t800 = mul_add(parameters.mover_mass[5], t787, mul_sub(t225, t786, t799));
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t801 = t228 * t772;
+        let t802 = t228 * t777;
+        let t803 = t228 * t782;
+        // leg 1: spring and damper force along the actuator
+        let t804 = parameters.rest_length[0] + t119;
+        let t805 = parameters.axial_damping[0] * t380;
+        let t806 = mul_add(parameters.axial_stiffness[0], t804, t805);
+        // leg 2: spring and damper force along the actuator
+        let t807 = parameters.rest_length[1] + t130;
+        let t808 = parameters.axial_damping[1] * t388;
+        let t809 = mul_add(parameters.axial_stiffness[1], t807, t808);
+        // leg 3: spring and damper force along the actuator
+        let t810 = parameters.rest_length[2] + t141;
+        let t811 = parameters.axial_damping[2] * t396;
+        let t812 = mul_add(parameters.axial_stiffness[2], t810, t811);
+        // leg 4: spring and damper force along the actuator
+        let t813 = parameters.rest_length[3] + t152;
+        let t814 = parameters.axial_damping[3] * t404;
+        let t815 = mul_add(parameters.axial_stiffness[3], t813, t814);
+        // leg 5: spring and damper force along the actuator
+        let t816 = parameters.rest_length[4] + t163;
+        let t817 = parameters.axial_damping[4] * t412;
+        let t818 = mul_add(parameters.axial_stiffness[4], t816, t817);
+        // leg 6: spring and damper force along the actuator
+        let t819 = parameters.rest_length[5] + t174;
+        let t820 = parameters.axial_damping[5] * t420;
+        let t821 = mul_add(parameters.axial_stiffness[5], t819, t820);
+        // leg 1: row of the actuator Jacobian in base coordinates
+        let t822 = mul_sub(t42, t177, t45 * t176);
+        let t823 = mul_sub(t45, t175, t39 * t177);
+        let t824 = mul_sub(t39, t176, t42 * t175);
+        // leg 2: row of the actuator Jacobian in base coordinates
+        let t825 = mul_sub(t54, t180, t57 * t179);
+        let t826 = mul_sub(t57, t178, t51 * t180);
+        let t827 = mul_sub(t51, t179, t54 * t178);
+        // leg 3: row of the actuator Jacobian in base coordinates
+        let t828 = mul_sub(t66, t183, t69 * t182);
+        let t829 = mul_sub(t69, t181, t63 * t183);
+        let t830 = mul_sub(t63, t182, t66 * t181);
+        // leg 4: row of the actuator Jacobian in base coordinates
+        let t831 = mul_sub(t78, t186, t81 * t185);
+        let t832 = mul_sub(t81, t184, t75 * t186);
+        let t833 = mul_sub(t75, t185, t78 * t184);
+        // leg 5: row of the actuator Jacobian in base coordinates
+        let t834 = mul_sub(t90, t189, t93 * t188);
+        let t835 = mul_sub(t93, t187, t87 * t189);
+        let t836 = mul_sub(t87, t188, t90 * t187);
+        // leg 6: row of the actuator Jacobian in base coordinates
+        let t837 = mul_sub(t102, t192, t105 * t191);
+        let t838 = mul_sub(t105, t190, t99 * t192);
+        let t839 = mul_sub(t99, t191, t102 * t190);
+        // leg 1: moment about the platform origin of the leg's inertia at its joint
+        let t840 = mul_sub(t42, t603, t45 * t602);
+        let t841 = mul_sub(t45, t601, t39 * t603);
+        let t842 = mul_sub(t39, t602, t42 * t601);
+        // leg 2: moment about the platform origin of the leg's inertia at its joint
+        let t843 = mul_sub(t54, t643, t57 * t642);
+        let t844 = mul_sub(t57, t641, t51 * t643);
+        let t845 = mul_sub(t51, t642, t54 * t641);
+        // leg 4: moment about the platform origin of the leg's inertia at its joint
+        let t846 = mul_sub(t78, t723, t81 * t722);
+        let t847 = mul_sub(t81, t721, t75 * t723);
+        let t848 = mul_sub(t75, t722, t78 * t721);
+        // leg 6: moment about the platform origin of the leg's inertia at its joint
+        let t849 = mul_sub(t102, t803, t105 * t802);
+        let t850 = mul_sub(t105, t801, t99 * t803);
+        let t851 = mul_sub(t99, t802, t102 * t801);
+        // inertia force less weight, without the actuators' own shares
+        let t852 = mul_add(t251, t479, mul_add(t237, t471, t244 * t475));
+        let t853 = mul_add(t251, t488, mul_add(t237, t482, t244 * t485));
+        let t854 = mul_add(t251, t494, mul_add(t237, t490, t244 * t492));
+        // first moments by platform coordinate of the payload's inertia force
+        let t855 = mul_add(t287, t479, mul_add(t265, t471, t276 * t475));
+        let t856 = mul_sub(t237, t454, t855);
+        let t857 = mul_add(t310, t479, mul_add(t276, t471, t299 * t475));
+        let t858 = mul_sub(t244, t454, t857);
+        let t859 = mul_add(t322, t479, mul_add(t287, t471, t310 * t475));
+        let t860 = mul_sub(t251, t454, t859);
+        let t861 = mul_add(t287, t488, mul_add(t265, t482, t276 * t485));
+        let t862 = mul_sub(t237, t456, t861);
+        let t863 = mul_add(t310, t488, mul_add(t276, t482, t299 * t485));
+        let t864 = mul_sub(t244, t456, t863);
+        let t865 = mul_add(t322, t488, mul_add(t287, t482, t310 * t485));
+        let t866 = mul_sub(t251, t456, t865);
+        let t867 = mul_add(t287, t494, mul_add(t265, t490, t276 * t492));
+        let t868 = mul_sub(t237, t458, t867);
+        let t869 = mul_add(t310, t494, mul_add(t276, t490, t299 * t492));
+        let t870 = mul_sub(t244, t458, t869);
+        let t871 = mul_add(t322, t494, mul_add(t287, t490, t310 * t492));
+        let t872 = mul_sub(t251, t458, t871);
+        // moment of the legs' inertia at their joints about the platform origin
+        let t873 = neg_mul_add(t69, t682, mul_add(t66, t683, t846));
+        let t874 = neg_mul_add(t93, t762, mul_add(t90, t763, t849));
+        let t875 = t840 + t843 + t873 + t874;
+        let t876 = neg_mul_add(t63, t683, mul_add(t69, t681, t847));
+        let t877 = neg_mul_add(t87, t763, mul_add(t93, t761, t850));
+        let t878 = t841 + t844 + t876 + t877;
+        let t879 = neg_mul_add(t66, t681, mul_add(t63, t682, t848));
+        let t880 = neg_mul_add(t90, t761, mul_add(t87, t762, t851));
+        let t881 = t842 + t845 + t879 + t880;
+        // inertia less external wrench that the actuators must balance
+        let t882 = base_rotation[1][0] * external_wrench[1];
+        let t883 = mul_add(base_rotation[0][0], external_wrench[0], t882);
+        let t884 = mul_add(base_rotation[2][0], external_wrench[2], t883);
+        let t885 = mul_add(t198, t572, neg_mul_add(t230, t454, t884) - t852);
+        let t886 = mul_add(t210, t652, mul_add(t204, t612, t885));
+        let t887 = mul_add(t222, t732, mul_add(t216, t692, t886));
+        let t888 = mul_add(t228, t772, t887);
+        let t889 = -t888;
+        let t890 = base_rotation[1][1] * external_wrench[1];
+        let t891 = mul_add(base_rotation[0][1], external_wrench[0], t890);
+        let t892 = mul_add(base_rotation[2][1], external_wrench[2], t891);
+        let t893 = mul_add(t198, t577, neg_mul_add(t230, t456, t892) - t853);
+        let t894 = mul_add(t210, t657, mul_add(t204, t617, t893));
+        let t895 = mul_add(t222, t737, mul_add(t216, t697, t894));
+        let t896 = mul_add(t228, t777, t895);
+        let t897 = -t896;
+        let t898 = base_rotation[1][2] * external_wrench[1];
+        let t899 = mul_add(base_rotation[0][2], external_wrench[0], t898);
+        let t900 = mul_add(base_rotation[2][2], external_wrench[2], t899);
+        let t901 = mul_add(t198, t582, neg_mul_add(t230, t458, t900) - t854);
+        let t902 = mul_add(t210, t662, mul_add(t204, t622, t901));
+        let t903 = mul_add(t222, t742, mul_add(t216, t702, t902));
+        let t904 = mul_add(t228, t782, t903);
+        let t905 = -t904;
+        let t906 = neg_mul_add(parameters.payload_com[2], t892, t866);
+        let t907 = neg_mul_add(parameters.payload_com[2], t900, t872);
+        let t908 = base_rotation[1][0] * external_wrench[4];
+        let t909 = mul_add(base_rotation[0][0], external_wrench[3], t908);
+        let t910 = mul_add(base_rotation[2][0], external_wrench[5], t909);
+        let t911 = mul_add(t27, t906, neg_mul_add(t18, t907, t910));
+        let t912 = neg_mul_add(parameters.payload_com[0], t900, t868);
+        let t913 = neg_mul_add(parameters.payload_com[0], t892, t862);
+        let t914 = neg_mul_add(parameters.payload_com[1], t900, t870);
+        let t915 = neg_mul_add(parameters.payload_com[1], t892, t864);
+        let t916 = mul_sub(t15, t914, t24 * t915);
+        let t917 = t875 + (t911 - (mul_sub(t12, t912, t21 * t913) + t916));
+        let t918 = -t917;
+        let t919 = neg_mul_add(parameters.payload_com[2], t884, t860);
+        let t920 = base_rotation[1][1] * external_wrench[4];
+        let t921 = mul_add(base_rotation[0][1], external_wrench[3], t920);
+        let t922 = mul_add(base_rotation[2][1], external_wrench[5], t921);
+        let t923 = mul_add(t9, t907, neg_mul_add(t27, t919, t922));
+        let t924 = neg_mul_add(parameters.payload_com[0], t884, t856);
+        let t925 = neg_mul_add(parameters.payload_com[1], t884, t858);
+        let t926 = mul_sub(t24, t925, t6 * t914);
+        let t927 = t878 + (t923 - (mul_sub(t21, t924, t3 * t912) + t926));
+        let t928 = -t927;
+        let t929 = base_rotation[1][2] * external_wrench[4];
+        let t930 = mul_add(base_rotation[0][2], external_wrench[3], t929);
+        let t931 = mul_add(base_rotation[2][2], external_wrench[5], t930);
+        let t932 = mul_add(t18, t919, neg_mul_add(t9, t906, t931));
+        let t933 = mul_sub(t6, t915, t15 * t925);
+        let t934 = t881 + (t932 - (mul_sub(t3, t913, t12 * t924) + t933));
+        let t935 = -t934;
+        (
+            t175, t176, t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t187, t188,
+            t189, t190, t191, t192, t600, t640, t680, t720, t760, t800, t806, t809, t812, t815,
+            t818, t821, t822, t823, t824, t825, t826, t827, t828, t829, t830, t831, t832, t833,
+            t834, t835, t836, t837, t838, t839, t888, t889, t896, t897, t904, t905, t917, t918,
+            t927, t928, t934, t935,
+        )
+    };
+    {
+        // force along the actuator that balances the remaining wrench
+        let t936 = mul_sub(t176, t183, t177 * t182);
+        let t937 = mul_sub(t182, t189, t183 * t188);
+        let t938 = mul_sub(t177, t188, t176 * t189);
+        let t939 = mul_add(t187, t936, mul_add(t175, t937, t181 * t938));
+        let t940 = c(1.0) / t939;
+        let t941 = mul_sub(t181, t188, t182 * t187);
+        let t942 = mul_sub(t183, t187, t181 * t189);
+        let t943 = mul_add(t192, t941, mul_add(t190, t937, t191 * t942));
+        let t944 = mul_sub(t175, t182, t176 * t181);
+        let t945 = mul_sub(t177, t181, t175 * t183);
+        let t946 = mul_add(t192, t944, mul_add(t190, t936, t191 * t945));
+        let t947 = mul_sub(t176, t187, t175 * t188);
+        let t948 = mul_sub(t175, t189, t177 * t187);
+        let t949 = mul_add(t192, t947, mul_add(t190, t938, t191 * t948));
+        let t950 = neg_mul_add(t828, t949, mul_sub(t837, t939, t822 * t943));
+        let t951 = neg_mul_add(t834, t946, t950);
+        let t952 = mul_add(t180, t944, mul_add(t178, t936, t179 * t945));
+        let t953 = mul_add(t180, t947, mul_add(t178, t938, t179 * t948));
+        let t954 = mul_add(t180, t941, mul_add(t178, t937, t179 * t942));
+        let t955 = neg_mul_add(t829, t953, mul_sub(t826, t939, t823 * t954));
+        let t956 = neg_mul_add(t835, t952, t955);
+        let t957 = mul_add(t186, t944, mul_add(t184, t936, t185 * t945));
+        let t958 = mul_add(t186, t947, mul_add(t184, t938, t185 * t948));
+        let t959 = mul_add(t186, t941, mul_add(t184, t937, t185 * t942));
+        let t960 = neg_mul_add(t830, t958, mul_sub(t833, t939, t824 * t959));
+        let t961 = neg_mul_add(t836, t957, t960);
+        let t962 = neg_mul_add(t829, t958, mul_sub(t832, t939, t823 * t959));
+        let t963 = neg_mul_add(t835, t957, t962);
+        let t964 = neg_mul_add(t830, t953, mul_sub(t827, t939, t824 * t954));
+        let t965 = neg_mul_add(t836, t952, t964);
+        let t966 = mul_sub(t956, t961, t963 * t965);
+        let t967 = neg_mul_add(t828, t953, mul_sub(t825, t939, t822 * t954));
+        let t968 = neg_mul_add(t834, t952, t967);
+        let t969 = neg_mul_add(t830, t949, mul_sub(t839, t939, t824 * t943));
+        let t970 = neg_mul_add(t836, t946, t969);
+        let t971 = neg_mul_add(t829, t949, mul_sub(t838, t939, t823 * t943));
+        let t972 = neg_mul_add(t835, t946, t971);
+        let t973 = mul_sub(t963, t970, t972 * t961);
+        let t974 = neg_mul_add(t828, t958, mul_sub(t831, t939, t822 * t959));
+        let t975 = neg_mul_add(t834, t957, t974);
+        let t976 = mul_sub(t972, t965, t956 * t970);
+        let t977 = c(1.0) / mul_add(t951, t966, mul_add(t968, t973, t975 * t976));
+        let t978 = mul_add(t904, t944, mul_add(t888, t936, t896 * t945));
+        let t979 = mul_add(t904, t947, mul_add(t888, t938, t896 * t948));
+        let t980 = mul_add(t904, t941, mul_add(t888, t937, t896 * t942));
+        let t981 = neg_mul_add(t830, t979, mul_sub(t934, t939, t824 * t980));
+        let t982 = neg_mul_add(t836, t978, t981);
+        let t983 = neg_mul_add(t828, t979, mul_sub(t917, t939, t822 * t980));
+        let t984 = neg_mul_add(t834, t978, t983);
+        let t985 = neg_mul_add(t829, t979, mul_sub(t927, t939, t823 * t980));
+        let t986 = neg_mul_add(t835, t978, t985);
+        let t987 = mul_add(t984, t966, t986 * mul_sub(t975, t965, t968 * t961));
+        let t988 = t977 * mul_add(t982, mul_sub(t968, t963, t975 * t956), t987);
+        let t989 = mul_add(t984, t976, t986 * mul_sub(t968, t970, t951 * t965));
+        let t990 = t977 * mul_add(t982, mul_sub(t951, t956, t968 * t972), t989);
+        let t991 = mul_add(t984, t973, t986 * mul_sub(t951, t961, t975 * t970));
+        let t992 = t977 * mul_add(t982, mul_sub(t975, t972, t951 * t963), t991);
+        let t993 = neg_mul_add(t959, t990, neg_mul_add(t954, t992, t980));
+        let t994 = t940 * mul_sub(t943, t988, t993);
+        let t995 = -t992;
+        let t996 = neg_mul_add(t958, t990, neg_mul_add(t953, t992, t979));
+        let t997 = t940 * mul_sub(t949, t988, t996);
+        let t998 = -t990;
+        let t999 = neg_mul_add(t957, t990, neg_mul_add(t952, t992, t978));
+        let t1000 = t940 * mul_sub(t946, t988, t999);
+        let t1001 = -t988;
+        let axial_reaction = solve_after_attempt(
+            &[t994, t995, t997, t998, t1000, t1001],
+            &[
+                [t175, t178, t181, t184, t187, t190],
+                [t176, t179, t182, t185, t188, t191],
+                [t177, t180, t183, t186, t189, t192],
+                [t822, t825, t828, t831, t834, t837],
+                [t823, t826, t829, t832, t835, t838],
+                [t824, t827, t830, t833, t836, t839],
+            ],
+            &[t889, t897, t905, t918, t928, t935],
+        );
+        // leg 1: actuator forces F
+        inverse_dynamics[0] = axial_reaction[0] + (t600 - t806);
+        // leg 2: actuator forces F
+        inverse_dynamics[1] = axial_reaction[1] + (t640 - t809);
+        // leg 3: actuator forces F
+        inverse_dynamics[2] = axial_reaction[2] + (t680 - t812);
+        // leg 4: actuator forces F
+        inverse_dynamics[3] = axial_reaction[3] + (t720 - t815);
+        // leg 5: actuator forces F
+        inverse_dynamics[4] = axial_reaction[4] + (t760 - t818);
+        // leg 6: actuator forces F
+        inverse_dynamics[5] = axial_reaction[5] + (t800 - t821);
+    }
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -24743,56 +26262,126 @@ pub fn control<T: Scalar>(
         total_bias[4] = -t1321;
         total_bias[5] = -t1325;
         // inertia less external wrench that the actuators must balance
-        let t1326 = mul_add(platform_acceleration[0], t693, platform_acceleration[1] * t588);
-        let t1327 = mul_add(platform_acceleration[2], t589, t1326);
-        let t1328 = neg_mul_add(platform_acceleration[3], t595, t1327);
-        let t1329 = neg_mul_add(platform_acceleration[4], t696, t1328);
-        let t1330 = neg_mul_add(platform_acceleration[5], t699, t1329) - t1305;
-        let t1331 = t1330 - external_wrench[0];
-        let t1332 = mul_add(platform_acceleration[0], t588, platform_acceleration[1] * t700);
-        let t1333 = mul_add(platform_acceleration[2], t611, t1332);
-        let t1334 = neg_mul_add(platform_acceleration[3], t701, t1333);
-        let t1335 = mul_add(platform_acceleration[4], t631, t1334);
-        let t1336 = neg_mul_add(platform_acceleration[5], t704, t1335) - t1309;
-        let t1337 = t1336 - external_wrench[1];
-        let t1338 = mul_add(platform_acceleration[0], t589, platform_acceleration[1] * t611);
-        let t1339 = mul_add(platform_acceleration[2], t705, t1338);
-        let t1340 = neg_mul_add(platform_acceleration[3], t706, t1339);
-        let t1341 = neg_mul_add(platform_acceleration[4], t707, t1340);
-        let t1342 = neg_mul_add(platform_acceleration[5], t660, t1341) - t1313;
-        let t1343 = t1342 - external_wrench[2];
-        let t1344 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1345 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1344);
-        let t1346 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1345);
-        let t1347 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1348 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1347);
-        let t1349 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1348);
-        let t1350 = mul_add(external_wrench[2], t1349, external_wrench[3]);
-        let t1351 = neg_mul_add(external_wrench[1], t1346, t1350);
-        let t1352 = mul_add(platform_acceleration[0], t595, platform_acceleration[1] * t701);
-        let t1353 = mul_add(platform_acceleration[2], t706, t1352);
-        let t1354 = neg_mul_add(platform_acceleration[3], t717, t1353);
-        let t1355 = mul_add(platform_acceleration[4], t720, t1354);
-        let t1356 = mul_sub(platform_acceleration[5], t723, t1351) - t1355 - t1317;
-        let t1357 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1358 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1357);
-        let t1359 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1358);
-        let t1360 = mul_add(external_wrench[0], t1346, external_wrench[4]);
-        let t1361 = neg_mul_add(external_wrench[2], t1359, t1360);
-        let t1362 = mul_sub(platform_acceleration[0], t696, platform_acceleration[1] * t631);
-        let t1363 = mul_add(platform_acceleration[2], t707, t1362);
-        let t1364 = mul_add(platform_acceleration[3], t720, t1363);
-        let t1365 = neg_mul_add(platform_acceleration[4], t732, t1364);
-        let t1366 = mul_sub(platform_acceleration[5], t735, t1361) - t1365 - t1321;
-        let t1367 = mul_add(external_wrench[1], t1359, external_wrench[5]);
-        let t1368 = neg_mul_add(external_wrench[0], t1349, t1367);
+        let t1326 = mul_add(platform_acceleration[5], t699, external_wrench[0]);
+        let t1327 = mul_add(platform_acceleration[0], t693, platform_acceleration[1] * t588);
+        let t1328 = mul_add(platform_acceleration[2], t589, t1327);
+        let t1329 = neg_mul_add(platform_acceleration[3], t595, t1328);
+        let t1330 = t1305 + (t1326 - neg_mul_add(platform_acceleration[4], t696, t1329));
+        let t1331 = -t1330;
+        let t1332 = mul_add(platform_acceleration[5], t704, external_wrench[1]);
+        let t1333 = mul_add(platform_acceleration[0], t588, platform_acceleration[1] * t700);
+        let t1334 = mul_add(platform_acceleration[2], t611, t1333);
+        let t1335 = neg_mul_add(platform_acceleration[3], t701, t1334);
+        let t1336 = t1309 + (t1332 - mul_add(platform_acceleration[4], t631, t1335));
+        let t1337 = -t1336;
+        let t1338 = mul_add(platform_acceleration[5], t660, external_wrench[2]);
+        let t1339 = mul_add(platform_acceleration[0], t589, platform_acceleration[1] * t611);
+        let t1340 = mul_add(platform_acceleration[2], t705, t1339);
+        let t1341 = neg_mul_add(platform_acceleration[3], t706, t1340);
+        let t1342 = t1313 + (t1338 - neg_mul_add(platform_acceleration[4], t707, t1341));
+        let t1343 = -t1342;
+        let t1344 = mul_add(platform_acceleration[0], t595, platform_acceleration[1] * t701);
+        let t1345 = mul_add(platform_acceleration[2], t706, t1344);
+        let t1346 = neg_mul_add(platform_acceleration[3], t717, t1345);
+        let t1347 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1348 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1347);
+        let t1349 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1348);
+        let t1350 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1351 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1350);
+        let t1352 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1351);
+        let t1353 = mul_add(external_wrench[2], t1352, external_wrench[3]);
+        let t1354 = neg_mul_add(external_wrench[1], t1349, t1353);
+        let t1355 = neg_mul_add(platform_acceleration[5], t723, t1354);
+        let t1356 = t1317 + (mul_add(platform_acceleration[4], t720, t1346) + t1355);
+        let t1357 = -t1356;
+        let t1358 = mul_sub(platform_acceleration[0], t696, platform_acceleration[1] * t631);
+        let t1359 = mul_add(platform_acceleration[2], t707, t1358);
+        let t1360 = mul_add(platform_acceleration[3], t720, t1359);
+        let t1361 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1362 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1361);
+        let t1363 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1362);
+        let t1364 = mul_add(external_wrench[0], t1349, external_wrench[4]);
+        let t1365 = neg_mul_add(external_wrench[2], t1363, t1364);
+        let t1366 = neg_mul_add(platform_acceleration[5], t735, t1365);
+        let t1367 = t1321 + (neg_mul_add(platform_acceleration[4], t732, t1360) + t1366);
+        let t1368 = -t1367;
         let t1369 = mul_add(platform_acceleration[0], t699, platform_acceleration[1] * t704);
         let t1370 = mul_add(platform_acceleration[2], t660, t1369);
         let t1371 = neg_mul_add(platform_acceleration[3], t723, t1370);
-        let t1372 = neg_mul_add(platform_acceleration[4], t735, t1371);
-        let t1373 = mul_sub(platform_acceleration[5], t744, t1368) - t1372 - t1325;
+        let t1372 = mul_add(external_wrench[1], t1363, external_wrench[5]);
+        let t1373 = neg_mul_add(external_wrench[0], t1352, t1372);
+        let t1374 = neg_mul_add(platform_acceleration[5], t744, t1373);
+        let t1375 = t1325 + (neg_mul_add(platform_acceleration[4], t735, t1371) + t1374);
+        let t1376 = -t1375;
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1377 = mul_sub(t250, t264, t252 * t262);
+        let t1378 = mul_sub(t262, t276, t264 * t274);
+        let t1379 = mul_sub(t252, t274, t250 * t276);
+        let t1380 = mul_add(t272, t1377, mul_add(t248, t1378, t260 * t1379));
+        let t1381 = c(1.0) / t1380;
+        let t1382 = mul_sub(t260, t274, t262 * t272);
+        let t1383 = mul_sub(t264, t272, t260 * t276);
+        let t1384 = mul_add(t282, t1382, mul_add(t278, t1378, t280 * t1383));
+        let t1385 = mul_sub(t248, t262, t250 * t260);
+        let t1386 = mul_sub(t252, t260, t248 * t264);
+        let t1387 = mul_add(t282, t1385, mul_add(t278, t1377, t280 * t1386));
+        let t1388 = mul_sub(t250, t272, t248 * t274);
+        let t1389 = mul_sub(t248, t276, t252 * t272);
+        let t1390 = mul_add(t282, t1388, mul_add(t278, t1379, t280 * t1389));
+        let t1391 = neg_mul_add(t289, t1390, mul_sub(t298, t1380, t283 * t1384));
+        let t1392 = neg_mul_add(t295, t1387, t1391);
+        let t1393 = mul_add(t258, t1385, mul_add(t254, t1377, t256 * t1386));
+        let t1394 = mul_add(t258, t1388, mul_add(t254, t1379, t256 * t1389));
+        let t1395 = mul_add(t258, t1382, mul_add(t254, t1378, t256 * t1383));
+        let t1396 = neg_mul_add(t290, t1394, mul_sub(t287, t1380, t284 * t1395));
+        let t1397 = neg_mul_add(t296, t1393, t1396);
+        let t1398 = mul_add(t270, t1385, mul_add(t266, t1377, t268 * t1386));
+        let t1399 = mul_add(t270, t1388, mul_add(t266, t1379, t268 * t1389));
+        let t1400 = mul_add(t270, t1382, mul_add(t266, t1378, t268 * t1383));
+        let t1401 = neg_mul_add(t291, t1399, mul_sub(t294, t1380, t285 * t1400));
+        let t1402 = neg_mul_add(t297, t1398, t1401);
+        let t1403 = neg_mul_add(t290, t1399, mul_sub(t293, t1380, t284 * t1400));
+        let t1404 = neg_mul_add(t296, t1398, t1403);
+        let t1405 = neg_mul_add(t291, t1394, mul_sub(t288, t1380, t285 * t1395));
+        let t1406 = neg_mul_add(t297, t1393, t1405);
+        let t1407 = mul_sub(t1397, t1402, t1404 * t1406);
+        let t1408 = neg_mul_add(t289, t1394, mul_sub(t286, t1380, t283 * t1395));
+        let t1409 = neg_mul_add(t295, t1393, t1408);
+        let t1410 = neg_mul_add(t291, t1390, mul_sub(t300, t1380, t285 * t1384));
+        let t1411 = neg_mul_add(t297, t1387, t1410);
+        let t1412 = neg_mul_add(t290, t1390, mul_sub(t299, t1380, t284 * t1384));
+        let t1413 = neg_mul_add(t296, t1387, t1412);
+        let t1414 = mul_sub(t1404, t1411, t1413 * t1402);
+        let t1415 = neg_mul_add(t289, t1399, mul_sub(t292, t1380, t283 * t1400));
+        let t1416 = neg_mul_add(t295, t1398, t1415);
+        let t1417 = mul_sub(t1413, t1406, t1397 * t1411);
+        let t1418 = c(1.0) / mul_add(t1392, t1407, mul_add(t1409, t1414, t1416 * t1417));
+        let t1419 = mul_add(t1342, t1385, mul_add(t1330, t1377, t1336 * t1386));
+        let t1420 = mul_add(t1342, t1388, mul_add(t1330, t1379, t1336 * t1389));
+        let t1421 = mul_add(t1342, t1382, mul_add(t1330, t1378, t1336 * t1383));
+        let t1422 = neg_mul_add(t291, t1420, mul_sub(t1375, t1380, t285 * t1421));
+        let t1423 = neg_mul_add(t297, t1419, t1422);
+        let t1424 = neg_mul_add(t289, t1420, mul_sub(t1356, t1380, t283 * t1421));
+        let t1425 = neg_mul_add(t295, t1419, t1424);
+        let t1426 = neg_mul_add(t290, t1420, mul_sub(t1367, t1380, t284 * t1421));
+        let t1427 = neg_mul_add(t296, t1419, t1426);
+        let t1428 = mul_add(t1425, t1407, t1427 * mul_sub(t1416, t1406, t1409 * t1402));
+        let t1429 = t1418 * mul_add(t1423, mul_sub(t1409, t1404, t1416 * t1397), t1428);
+        let t1430 = mul_add(t1425, t1417, t1427 * mul_sub(t1409, t1411, t1392 * t1406));
+        let t1431 = t1418 * mul_add(t1423, mul_sub(t1392, t1397, t1409 * t1413), t1430);
+        let t1432 = mul_add(t1425, t1414, t1427 * mul_sub(t1392, t1402, t1416 * t1411));
+        let t1433 = t1418 * mul_add(t1423, mul_sub(t1416, t1413, t1392 * t1404), t1432);
+        let t1434 = neg_mul_add(t1400, t1431, neg_mul_add(t1395, t1433, t1421));
+        let t1435 = t1381 * mul_sub(t1384, t1429, t1434);
+        let t1436 = -t1433;
+        let t1437 = neg_mul_add(t1399, t1431, neg_mul_add(t1394, t1433, t1420));
+        let t1438 = t1381 * mul_sub(t1390, t1429, t1437);
+        let t1439 = -t1431;
+        let t1440 = neg_mul_add(t1398, t1431, neg_mul_add(t1393, t1433, t1419));
+        let t1441 = t1381 * mul_sub(t1387, t1429, t1440);
+        let t1442 = -t1429;
+        let axial_reaction = solve_after_attempt(
+            &[t1435, t1436, t1438, t1439, t1441, t1442],
             &[
                 [t248, t254, t260, t266, t272, t278],
                 [t250, t256, t262, t268, t274, t280],
@@ -24801,7 +26390,7 @@ pub fn control<T: Scalar>(
                 [t284, t287, t290, t293, t296, t299],
                 [t285, t288, t291, t294, t297, t300],
             ],
-            &[t1331, t1337, t1343, t1356, t1366, t1373],
+            &[t1331, t1337, t1343, t1357, t1368, t1376],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -26087,103 +27676,179 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1063 = mul_sub(t87, t954, t90 * t953);
         // inertia force less weight, without the actuators' own shares
         let t1064 = mul_add(t269, t534, mul_add(t255, t526, t262 * t530));
-        let t1065 = mul_add(t269, t543, mul_add(t255, t537, t262 * t540));
-        let t1066 = mul_add(t269, t549, mul_add(t255, t545, t262 * t547));
+        let t1065 = mul_sub(t216, t681, mul_add(t248, t509, t1064));
+        let t1066 = mul_add(t228, t801, mul_add(t222, t741, t1065));
+        let t1067 = mul_add(t240, t921, mul_add(t234, t861, t1066));
+        let t1068 = mul_add(t246, t981, t1067);
+        let t1069 = mul_add(t269, t543, mul_add(t255, t537, t262 * t540));
+        let t1070 = mul_sub(t216, t688, mul_add(t248, t511, t1069));
+        let t1071 = mul_add(t228, t808, mul_add(t222, t748, t1070));
+        let t1072 = mul_add(t240, t928, mul_add(t234, t868, t1071));
+        let t1073 = mul_add(t246, t988, t1072);
+        let t1074 = mul_add(t269, t549, mul_add(t255, t545, t262 * t547));
+        let t1075 = mul_sub(t216, t695, mul_add(t248, t513, t1074));
+        let t1076 = mul_add(t228, t815, mul_add(t222, t755, t1075));
+        let t1077 = mul_add(t240, t935, mul_add(t234, t875, t1076));
+        let t1078 = mul_add(t246, t995, t1077);
         // first moments by platform coordinate of the payload's inertia force
-        let t1067 = mul_add(t306, t534, mul_add(t284, t526, t295 * t530));
-        let t1068 = mul_add(t329, t534, mul_add(t295, t526, t318 * t530));
-        let t1069 = mul_add(t341, t534, mul_add(t306, t526, t329 * t530));
-        let t1070 = mul_add(t306, t543, mul_add(t284, t537, t295 * t540));
-        let t1071 = mul_add(t329, t543, mul_add(t295, t537, t318 * t540));
-        let t1072 = mul_add(t341, t543, mul_add(t306, t537, t329 * t540));
-        let t1073 = mul_add(t306, t549, mul_add(t284, t545, t295 * t547));
-        let t1074 = mul_add(t329, t549, mul_add(t295, t545, t318 * t547));
-        let t1075 = mul_add(t341, t549, mul_add(t306, t545, t329 * t547));
+        let t1079 = mul_add(t306, t534, mul_add(t284, t526, t295 * t530));
+        let t1080 = mul_add(t329, t534, mul_add(t295, t526, t318 * t530));
+        let t1081 = mul_add(t341, t534, mul_add(t306, t526, t329 * t530));
+        let t1082 = mul_add(t306, t543, mul_add(t284, t537, t295 * t540));
+        let t1083 = mul_add(t329, t543, mul_add(t295, t537, t318 * t540));
+        let t1084 = mul_add(t341, t543, mul_add(t306, t537, t329 * t540));
+        let t1085 = mul_add(t306, t549, mul_add(t284, t545, t295 * t547));
+        let t1086 = mul_add(t329, t549, mul_add(t295, t545, t318 * t547));
+        let t1087 = mul_add(t341, t549, mul_add(t306, t545, t329 * t547));
         // moment of the legs' inertia at their joints about the platform origin
-        let t1076 = neg_mul_add(t81, t894, mul_add(t78, t895, t1061));
-        let t1077 = t1058 + (t1052 + t1055) + t1076;
-        let t1078 = neg_mul_add(t75, t895, mul_add(t81, t893, t1062));
-        let t1079 = t1059 + (t1053 + t1056) + t1078;
-        let t1080 = neg_mul_add(t78, t893, mul_add(t75, t894, t1063));
-        let t1081 = t1060 + (t1054 + t1057) + t1080;
+        let t1088 = neg_mul_add(t81, t894, mul_add(t78, t895, t1061));
+        let t1089 = t1058 + (t1052 + t1055) + t1088;
+        let t1090 = neg_mul_add(t75, t895, mul_add(t81, t893, t1062));
+        let t1091 = t1059 + (t1053 + t1056) + t1090;
+        let t1092 = neg_mul_add(t78, t893, mul_add(t75, t894, t1063));
+        let t1093 = t1060 + (t1054 + t1057) + t1092;
         // inertia less external wrench that the actuators must balance
-        let t1082 = mul_add(t269, t642, mul_add(t255, t640, t262 * t641));
-        let t1083 = neg_mul_add(t216, t681, t1064 + mul_sub(t248, t509, t1082));
-        let t1084 = neg_mul_add(t228, t801, neg_mul_add(t222, t741, t1083));
-        let t1085 = neg_mul_add(t240, t921, neg_mul_add(t234, t861, t1084));
-        let t1086 = base_rotation[1][0] * external_wrench[1];
-        let t1087 = mul_add(base_rotation[0][0], external_wrench[0], t1086);
-        let t1088 = mul_add(base_rotation[2][0], external_wrench[2], t1087);
-        let t1089 = neg_mul_add(t246, t981, t1085) - t1088;
-        let t1090 = mul_add(t269, t649, mul_add(t255, t647, t262 * t648));
-        let t1091 = neg_mul_add(t216, t688, t1065 + mul_sub(t248, t511, t1090));
-        let t1092 = neg_mul_add(t228, t808, neg_mul_add(t222, t748, t1091));
-        let t1093 = neg_mul_add(t240, t928, neg_mul_add(t234, t868, t1092));
-        let t1094 = base_rotation[1][1] * external_wrench[1];
-        let t1095 = mul_add(base_rotation[0][1], external_wrench[0], t1094);
-        let t1096 = mul_add(base_rotation[2][1], external_wrench[2], t1095);
-        let t1097 = neg_mul_add(t246, t988, t1093) - t1096;
-        let t1098 = mul_add(t269, t655, mul_add(t255, t653, t262 * t654));
-        let t1099 = neg_mul_add(t216, t695, t1066 + mul_sub(t248, t513, t1098));
-        let t1100 = neg_mul_add(t228, t815, neg_mul_add(t222, t755, t1099));
-        let t1101 = neg_mul_add(t240, t935, neg_mul_add(t234, t875, t1100));
-        let t1102 = base_rotation[1][2] * external_wrench[1];
-        let t1103 = mul_add(base_rotation[0][2], external_wrench[0], t1102);
-        let t1104 = mul_add(base_rotation[2][2], external_wrench[2], t1103);
-        let t1105 = neg_mul_add(t246, t995, t1101) - t1104;
-        let t1106 = mul_add(t306, t655, mul_add(t284, t653, t295 * t654));
-        let t1107 = mul_add(t255, t513, t1106) - t1073;
-        let t1108 = neg_mul_add(parameters.payload_com[0], t1104, t1107);
-        let t1109 = mul_add(t306, t649, mul_add(t284, t647, t295 * t648));
-        let t1110 = mul_add(t255, t511, t1109) - t1070;
-        let t1111 = neg_mul_add(parameters.payload_com[0], t1096, t1110);
-        let t1112 = mul_add(t329, t655, mul_add(t295, t653, t318 * t654));
-        let t1113 = mul_add(t262, t513, t1112) - t1074;
-        let t1114 = neg_mul_add(parameters.payload_com[1], t1104, t1113);
-        let t1115 = mul_add(t329, t649, mul_add(t295, t647, t318 * t648));
-        let t1116 = mul_add(t262, t511, t1115) - t1071;
-        let t1117 = neg_mul_add(parameters.payload_com[1], t1096, t1116);
-        let t1118 = mul_sub(t15, t1114, t24 * t1117);
-        let t1119 = mul_sub(t12, t1108, t21 * t1111) + t1118;
-        let t1120 = mul_add(t341, t655, mul_add(t306, t653, t329 * t654));
-        let t1121 = mul_add(t269, t513, t1120) - t1075;
-        let t1122 = neg_mul_add(parameters.payload_com[2], t1104, t1121);
-        let t1123 = mul_add(t341, t649, mul_add(t306, t647, t329 * t648));
-        let t1124 = mul_add(t269, t511, t1123) - t1072;
-        let t1125 = neg_mul_add(parameters.payload_com[2], t1096, t1124);
-        let t1126 = t1119 + mul_sub(t18, t1122, t27 * t1125);
-        let t1127 = mul_add(t105, t1014, neg_mul_add(t102, t1015, t1126)) - t1077;
-        let t1128 = neg_mul_add(t272, mul_sub(t356, t636, t651), t1127);
-        let t1129 = base_rotation[1][0] * external_wrench[4];
-        let t1130 = mul_add(base_rotation[0][0], external_wrench[3], t1129);
-        let t1131 = t1128 - mul_add(base_rotation[2][0], external_wrench[5], t1130);
-        let t1132 = base_rotation[1][1] * external_wrench[4];
-        let t1133 = mul_add(base_rotation[0][1], external_wrench[3], t1132);
-        let t1134 = mul_add(base_rotation[2][1], external_wrench[5], t1133);
-        let t1135 = mul_sub(t272, mul_sub(t353, t636, t650), t1134);
-        let t1136 = mul_add(t306, t642, mul_add(t284, t640, t295 * t641));
-        let t1137 = mul_add(t255, t509, t1136) - t1067;
-        let t1138 = neg_mul_add(parameters.payload_com[0], t1088, t1137);
-        let t1139 = mul_add(t329, t642, mul_add(t295, t640, t318 * t641));
-        let t1140 = mul_add(t262, t509, t1139) - t1068;
-        let t1141 = neg_mul_add(parameters.payload_com[1], t1088, t1140);
-        let t1142 = mul_sub(t24, t1141, t6 * t1114);
-        let t1143 = mul_sub(t21, t1138, t3 * t1108) + t1142;
-        let t1144 = mul_add(t341, t642, mul_add(t306, t640, t329 * t641));
-        let t1145 = mul_add(t269, t509, t1144) - t1069;
-        let t1146 = neg_mul_add(parameters.payload_com[2], t1088, t1145);
-        let t1147 = mul_sub(t105, t1013, t1143 + mul_sub(t27, t1146, t9 * t1122));
-        let t1148 = t1135 - (t1079 + neg_mul_add(t99, t1015, t1147));
-        let t1149 = mul_sub(t6, t1117, t15 * t1141);
-        let t1150 = mul_sub(t3, t1111, t12 * t1138) + t1149;
-        let t1151 = t1150 + mul_sub(t9, t1125, t18 * t1146);
-        let t1152 = mul_add(t102, t1013, neg_mul_add(t99, t1014, t1151)) - t1081;
-        let t1153 = neg_mul_add(t272, mul_sub(t353, t634, t643), t1152);
-        let t1154 = base_rotation[1][2] * external_wrench[4];
-        let t1155 = mul_add(base_rotation[0][2], external_wrench[3], t1154);
-        let t1156 = t1153 - mul_add(base_rotation[2][2], external_wrench[5], t1155);
+        let t1094 = base_rotation[1][0] * external_wrench[1];
+        let t1095 = mul_add(base_rotation[0][0], external_wrench[0], t1094);
+        let t1096 = mul_add(base_rotation[2][0], external_wrench[2], t1095);
+        let t1097 = mul_add(t255, t640, t262 * t641) + mul_add(t269, t642, t1096);
+        let t1098 = t1068 + t1097;
+        let t1099 = -t1098;
+        let t1100 = base_rotation[1][1] * external_wrench[1];
+        let t1101 = mul_add(base_rotation[0][1], external_wrench[0], t1100);
+        let t1102 = mul_add(base_rotation[2][1], external_wrench[2], t1101);
+        let t1103 = mul_add(t255, t647, t262 * t648) + mul_add(t269, t649, t1102);
+        let t1104 = t1073 + t1103;
+        let t1105 = -t1104;
+        let t1106 = base_rotation[1][2] * external_wrench[1];
+        let t1107 = mul_add(base_rotation[0][2], external_wrench[0], t1106);
+        let t1108 = mul_add(base_rotation[2][2], external_wrench[2], t1107);
+        let t1109 = mul_add(t255, t653, t262 * t654) + mul_add(t269, t655, t1108);
+        let t1110 = t1078 + t1109;
+        let t1111 = -t1110;
+        let t1112 = mul_add(t306, t655, mul_add(t284, t653, t295 * t654));
+        let t1113 = mul_add(t255, t513, t1112) - t1085;
+        let t1114 = neg_mul_add(parameters.payload_com[0], t1108, t1113);
+        let t1115 = mul_add(t306, t649, mul_add(t284, t647, t295 * t648));
+        let t1116 = mul_add(t255, t511, t1115) - t1082;
+        let t1117 = neg_mul_add(parameters.payload_com[0], t1102, t1116);
+        let t1118 = mul_add(t329, t655, mul_add(t295, t653, t318 * t654));
+        let t1119 = mul_add(t262, t513, t1118) - t1086;
+        let t1120 = neg_mul_add(parameters.payload_com[1], t1108, t1119);
+        let t1121 = mul_add(t329, t649, mul_add(t295, t647, t318 * t648));
+        let t1122 = mul_add(t262, t511, t1121) - t1083;
+        let t1123 = neg_mul_add(parameters.payload_com[1], t1102, t1122);
+        let t1124 = mul_sub(t15, t1120, t24 * t1123);
+        let t1125 = mul_sub(t12, t1114, t21 * t1117) + t1124;
+        let t1126 = mul_add(t341, t655, mul_add(t306, t653, t329 * t654));
+        let t1127 = mul_add(t269, t513, t1126) - t1087;
+        let t1128 = neg_mul_add(parameters.payload_com[2], t1108, t1127);
+        let t1129 = mul_add(t341, t649, mul_add(t306, t647, t329 * t648));
+        let t1130 = mul_add(t269, t511, t1129) - t1084;
+        let t1131 = neg_mul_add(parameters.payload_com[2], t1102, t1130);
+        let t1132 = mul_sub(t102, t1015, t1125 + mul_sub(t18, t1128, t27 * t1131));
+        let t1133 = base_rotation[1][0] * external_wrench[4];
+        let t1134 = mul_add(base_rotation[0][0], external_wrench[3], t1133);
+        let t1135 = mul_add(base_rotation[2][0], external_wrench[5], t1134);
+        let t1136 = mul_add(t272, mul_sub(t356, t636, t651), t1135);
+        let t1137 = t1089 + neg_mul_add(t105, t1014, t1132) + t1136;
+        let t1138 = -t1137;
+        let t1139 = mul_add(t306, t642, mul_add(t284, t640, t295 * t641));
+        let t1140 = mul_add(t255, t509, t1139) - t1079;
+        let t1141 = neg_mul_add(parameters.payload_com[0], t1096, t1140);
+        let t1142 = mul_add(t329, t642, mul_add(t295, t640, t318 * t641));
+        let t1143 = mul_add(t262, t509, t1142) - t1080;
+        let t1144 = neg_mul_add(parameters.payload_com[1], t1096, t1143);
+        let t1145 = mul_sub(t24, t1144, t6 * t1120);
+        let t1146 = mul_sub(t21, t1141, t3 * t1114) + t1145;
+        let t1147 = mul_add(t341, t642, mul_add(t306, t640, t329 * t641));
+        let t1148 = mul_add(t269, t509, t1147) - t1081;
+        let t1149 = neg_mul_add(parameters.payload_com[2], t1096, t1148);
+        let t1150 = mul_sub(t105, t1013, t1146 + mul_sub(t27, t1149, t9 * t1128));
+        let t1151 = base_rotation[1][1] * external_wrench[4];
+        let t1152 = mul_add(base_rotation[0][1], external_wrench[3], t1151);
+        let t1153 = mul_add(base_rotation[2][1], external_wrench[5], t1152);
+        let t1154 = neg_mul_add(t272, mul_sub(t353, t636, t650), t1153);
+        let t1155 = t1091 + neg_mul_add(t99, t1015, t1150) + t1154;
+        let t1156 = -t1155;
+        let t1157 = mul_sub(t6, t1123, t15 * t1144);
+        let t1158 = mul_sub(t3, t1117, t12 * t1141) + t1157;
+        let t1159 = mul_sub(t99, t1014, t1158 + mul_sub(t9, t1131, t18 * t1149));
+        let t1160 = base_rotation[1][2] * external_wrench[4];
+        let t1161 = mul_add(base_rotation[0][2], external_wrench[3], t1160);
+        let t1162 = mul_add(base_rotation[2][2], external_wrench[5], t1161);
+        let t1163 = mul_add(t272, mul_sub(t353, t634, t643), t1162);
+        let t1164 = t1093 + neg_mul_add(t102, t1013, t1159) + t1163;
+        let t1165 = -t1164;
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1166 = mul_sub(t178, t192, t180 * t190);
+        let t1167 = mul_sub(t190, t204, t192 * t202);
+        let t1168 = mul_sub(t180, t202, t178 * t204);
+        let t1169 = mul_add(t200, t1166, mul_add(t176, t1167, t188 * t1168));
+        let t1170 = c(1.0) / t1169;
+        let t1171 = mul_sub(t188, t202, t190 * t200);
+        let t1172 = mul_sub(t192, t200, t188 * t204);
+        let t1173 = mul_add(t210, t1171, mul_add(t206, t1167, t208 * t1172));
+        let t1174 = mul_sub(t176, t190, t178 * t188);
+        let t1175 = mul_sub(t180, t188, t176 * t192);
+        let t1176 = mul_add(t210, t1174, mul_add(t206, t1166, t208 * t1175));
+        let t1177 = mul_sub(t178, t200, t176 * t202);
+        let t1178 = mul_sub(t176, t204, t180 * t200);
+        let t1179 = mul_add(t210, t1177, mul_add(t206, t1168, t208 * t1178));
+        let t1180 = neg_mul_add(t1040, t1179, mul_sub(t1049, t1169, t1034 * t1173));
+        let t1181 = neg_mul_add(t1046, t1176, t1180);
+        let t1182 = mul_add(t186, t1174, mul_add(t182, t1166, t184 * t1175));
+        let t1183 = mul_add(t186, t1177, mul_add(t182, t1168, t184 * t1178));
+        let t1184 = mul_add(t186, t1171, mul_add(t182, t1167, t184 * t1172));
+        let t1185 = neg_mul_add(t1041, t1183, mul_sub(t1038, t1169, t1035 * t1184));
+        let t1186 = neg_mul_add(t1047, t1182, t1185);
+        let t1187 = mul_add(t198, t1174, mul_add(t194, t1166, t196 * t1175));
+        let t1188 = mul_add(t198, t1177, mul_add(t194, t1168, t196 * t1178));
+        let t1189 = mul_add(t198, t1171, mul_add(t194, t1167, t196 * t1172));
+        let t1190 = neg_mul_add(t1042, t1188, mul_sub(t1045, t1169, t1036 * t1189));
+        let t1191 = neg_mul_add(t1048, t1187, t1190);
+        let t1192 = neg_mul_add(t1041, t1188, mul_sub(t1044, t1169, t1035 * t1189));
+        let t1193 = neg_mul_add(t1047, t1187, t1192);
+        let t1194 = neg_mul_add(t1042, t1183, mul_sub(t1039, t1169, t1036 * t1184));
+        let t1195 = neg_mul_add(t1048, t1182, t1194);
+        let t1196 = mul_sub(t1186, t1191, t1193 * t1195);
+        let t1197 = neg_mul_add(t1040, t1183, mul_sub(t1037, t1169, t1034 * t1184));
+        let t1198 = neg_mul_add(t1046, t1182, t1197);
+        let t1199 = neg_mul_add(t1042, t1179, mul_sub(t1051, t1169, t1036 * t1173));
+        let t1200 = neg_mul_add(t1048, t1176, t1199);
+        let t1201 = neg_mul_add(t1041, t1179, mul_sub(t1050, t1169, t1035 * t1173));
+        let t1202 = neg_mul_add(t1047, t1176, t1201);
+        let t1203 = mul_sub(t1193, t1200, t1202 * t1191);
+        let t1204 = neg_mul_add(t1040, t1188, mul_sub(t1043, t1169, t1034 * t1189));
+        let t1205 = neg_mul_add(t1046, t1187, t1204);
+        let t1206 = mul_sub(t1202, t1195, t1186 * t1200);
+        let t1207 = c(1.0) / mul_add(t1181, t1196, mul_add(t1198, t1203, t1205 * t1206));
+        let t1208 = mul_add(t1110, t1174, mul_add(t1098, t1166, t1104 * t1175));
+        let t1209 = mul_add(t1110, t1177, mul_add(t1098, t1168, t1104 * t1178));
+        let t1210 = mul_add(t1110, t1171, mul_add(t1098, t1167, t1104 * t1172));
+        let t1211 = neg_mul_add(t1042, t1209, mul_sub(t1164, t1169, t1036 * t1210));
+        let t1212 = neg_mul_add(t1048, t1208, t1211);
+        let t1213 = neg_mul_add(t1040, t1209, mul_sub(t1137, t1169, t1034 * t1210));
+        let t1214 = neg_mul_add(t1046, t1208, t1213);
+        let t1215 = neg_mul_add(t1041, t1209, mul_sub(t1155, t1169, t1035 * t1210));
+        let t1216 = neg_mul_add(t1047, t1208, t1215);
+        let t1217 = mul_add(t1214, t1196, t1216 * mul_sub(t1205, t1195, t1198 * t1191));
+        let t1218 = t1207 * mul_add(t1212, mul_sub(t1198, t1193, t1205 * t1186), t1217);
+        let t1219 = mul_add(t1214, t1206, t1216 * mul_sub(t1198, t1200, t1181 * t1195));
+        let t1220 = t1207 * mul_add(t1212, mul_sub(t1181, t1186, t1198 * t1202), t1219);
+        let t1221 = mul_add(t1214, t1203, t1216 * mul_sub(t1181, t1191, t1205 * t1200));
+        let t1222 = t1207 * mul_add(t1212, mul_sub(t1205, t1202, t1181 * t1193), t1221);
+        let t1223 = neg_mul_add(t1189, t1220, neg_mul_add(t1184, t1222, t1210));
+        let t1224 = t1170 * mul_sub(t1173, t1218, t1223);
+        let t1225 = -t1222;
+        let t1226 = neg_mul_add(t1188, t1220, neg_mul_add(t1183, t1222, t1209));
+        let t1227 = t1170 * mul_sub(t1179, t1218, t1226);
+        let t1228 = -t1220;
+        let t1229 = neg_mul_add(t1187, t1220, neg_mul_add(t1182, t1222, t1208));
+        let t1230 = t1170 * mul_sub(t1176, t1218, t1229);
+        let t1231 = -t1218;
+        let axial_reaction = solve_after_attempt(
+            &[t1224, t1225, t1227, t1228, t1230, t1231],
             &[
                 [t176, t182, t188, t194, t200, t206],
                 [t178, t184, t190, t196, t202, t208],
@@ -26192,32 +27857,32 @@ pub fn passive_inverse_dynamics<T: Scalar>(
                 [t1035, t1038, t1041, t1044, t1047, t1050],
                 [t1036, t1039, t1042, t1045, t1048, t1051],
             ],
-            &[t1089, t1097, t1105, t1131, t1148, t1156],
+            &[t1099, t1105, t1111, t1138, t1156, t1165],
         );
         // leg 1: actuator forces F at reference speeds
-        let t1157 = mul_add(t213, t698, mul_sub(t216, t710, t1018));
+        let t1232 = mul_add(t213, t698, mul_sub(t216, t710, t1018));
         passive_inverse_dynamics[0] =
-            axial_reaction[0] + mul_add(parameters.mover_mass[0], t712, t1157);
+            axial_reaction[0] + mul_add(parameters.mover_mass[0], t712, t1232);
         // leg 2: actuator forces F at reference speeds
-        let t1158 = mul_add(t219, t758, mul_sub(t222, t770, t1021));
+        let t1233 = mul_add(t219, t758, mul_sub(t222, t770, t1021));
         passive_inverse_dynamics[1] =
-            axial_reaction[1] + mul_add(parameters.mover_mass[1], t772, t1158);
+            axial_reaction[1] + mul_add(parameters.mover_mass[1], t772, t1233);
         // leg 3: actuator forces F at reference speeds
-        let t1159 = mul_add(t225, t818, mul_sub(t228, t830, t1024));
+        let t1234 = mul_add(t225, t818, mul_sub(t228, t830, t1024));
         passive_inverse_dynamics[2] =
-            axial_reaction[2] + mul_add(parameters.mover_mass[2], t832, t1159);
+            axial_reaction[2] + mul_add(parameters.mover_mass[2], t832, t1234);
         // leg 4: actuator forces F at reference speeds
-        let t1160 = mul_add(t231, t878, mul_sub(t234, t890, t1027));
+        let t1235 = mul_add(t231, t878, mul_sub(t234, t890, t1027));
         passive_inverse_dynamics[3] =
-            axial_reaction[3] + mul_add(parameters.mover_mass[3], t892, t1160);
+            axial_reaction[3] + mul_add(parameters.mover_mass[3], t892, t1235);
         // leg 5: actuator forces F at reference speeds
-        let t1161 = mul_add(t237, t938, mul_sub(t240, t950, t1030));
+        let t1236 = mul_add(t237, t938, mul_sub(t240, t950, t1030));
         passive_inverse_dynamics[4] =
-            axial_reaction[4] + mul_add(parameters.mover_mass[4], t952, t1161);
+            axial_reaction[4] + mul_add(parameters.mover_mass[4], t952, t1236);
         // leg 6: actuator forces F at reference speeds
-        let t1162 = mul_add(t243, t998, mul_sub(t246, t1010, t1033));
+        let t1237 = mul_add(t243, t998, mul_sub(t246, t1010, t1033));
         passive_inverse_dynamics[5] =
-            axial_reaction[5] + mul_add(parameters.mover_mass[5], t1012, t1162);
+            axial_reaction[5] + mul_add(parameters.mover_mass[5], t1012, t1237);
     }
 }
 
@@ -32273,16 +33938,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -32292,94 +33957,94 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
     let t27 = t9 * P::splat(P::lane(t14, 2));
     let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t29 = t18 * P::splat(P::lane(t14, 0));
     let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
     let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
     let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
     let t35 = t18 * P::splat(P::lane(t14, 2));
     let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
     // constant and copied elements
     let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
     let t39 =
-        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[2][1], parameters.actuator_axis[4][1]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
     let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
     let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
     // constant and copied elements
     let t44 =
-        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[2][0], parameters.actuator_axis[4][0]]);
     let t45 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     let t46 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
     // constant and copied elements
     let t50 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
     let t51 =
-        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[2][2], parameters.actuator_axis[4][2]]);
     let t52 =
-        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
-    // legs 4, 5, 6: platform joint from the base point
+        P::triple([parameters.actuator_axis[1][1], parameters.actuator_axis[3][1], parameters.actuator_axis[5][1]]);
+    // legs 2, 4, 6: platform joint from the base point
     let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
     // constant and copied elements
     let t54 =
-        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
+        P::triple([parameters.actuator_axis[1][0], parameters.actuator_axis[3][0], parameters.actuator_axis[5][0]]);
     let t55 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
     let t56 =
-        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        P::triple([parameters.actuator_axis[1][2], parameters.actuator_axis[3][2], parameters.actuator_axis[5][2]]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
     // constant and copied elements
     let t59 =
-        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+        P::triple([parameters.rod_length[0], parameters.rod_length[2], parameters.rod_length[4]]);
     // angular velocity of the base
     let t60 = t1 * P::splat(base_velocity[4]);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t61 = t59 * t59;
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t62 = neg_mul_add(t39, t57, t43);
     let t63 = neg_mul_add(t44, t57, t42);
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
     let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
     let t65 = neg_mul_add(t51, t57, t49);
     // angular velocity of the base
     let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
@@ -32387,16 +34052,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // constant and copied elements
     let t68 =
-        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
+        P::triple([parameters.rod_length[1], parameters.rod_length[3], parameters.rod_length[5]]);
     // angular velocity of the platform
     let t69 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t70 = t68 * t68;
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
     let t71 = neg_mul_add(t52, t64, t48);
     let t72 = neg_mul_add(t54, t64, t53);
     let t73 = neg_mul_add(t56, t64, t58);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t74 = mul_add(t63, t63, t62 * t62);
     // angular velocity of the base
     let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
@@ -32404,16 +34069,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
     // constant and copied elements
     let t77 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
+        P::triple([parameters.rod_inertia[1], parameters.rod_inertia[3], parameters.rod_inertia[5]]);
     // angular velocity of the platform
     let t78 = mul_add(t2, P::splat(platform_velocity[3]), t69);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t79 = mul_add(t72, t72, t71 * t71);
     // angular acceleration of the base
     let t80 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
     let t81 = t77 / t70;
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 1, 3, 5: extent of the rod along the actuator axis
     let t82 = sqrt(neg_mul_add(t65, t65, t61) - t74);
     // velocity of the platform origin relative to the base
     let t83 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
@@ -32421,10 +34086,10 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t84 = t1 * P::splat(platform_acceleration[4]);
     // constant and copied elements
     let t85 =
-        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[2], parameters.rod_inertia[4]]);
     // angular acceleration of the base
     let t86 = mul_add(t2, P::splat(base_acceleration[3]), t80);
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
     let t87 = t85 / t61;
     // angular velocity of the platform
     let t88 = mul_add(t5, P::splat(platform_velocity[5]), t78);
@@ -32434,7 +34099,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t90 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
     // angular acceleration of the platform
     let t91 = mul_add(t2, P::splat(platform_acceleration[3]), t84);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t92 = sqrt(neg_mul_add(t73, t73, t70) - t79);
     // angular acceleration of the base
     let t93 = mul_add(t5, P::splat(base_acceleration[5]), t86);
@@ -32455,16 +34120,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t101 = mul_add(t5, P::splat(platform_acceleration[5]), t91);
     // constant and copied elements
     let t102 =
-        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t103 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+        P::triple([parameters.rod_com_fraction[1], parameters.rod_com_fraction[3], parameters.rod_com_fraction[5]]);
+    let t103 = P::triple([parameters.rod_mass[1], parameters.rod_mass[3], parameters.rod_mass[5]]);
     // angular velocity of the base
     let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
-    // legs 4, 5, 6: leg mass that moves with the platform joint
+    // legs 2, 4, 6: leg mass that moves with the platform joint
     let t105 = t102 * t103;
     // constant and copied elements
     let t106 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t107 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[2], parameters.rod_com_fraction[4]]);
+    let t107 = P::triple([parameters.rod_mass[0], parameters.rod_mass[2], parameters.rod_mass[4]]);
     // acceleration of the base origin less gravity
     let t108 = base_acceleration[0] - parameters.gravity[0];
     let t109 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
@@ -32473,9 +34138,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // acceleration of the platform origin less gravity
     let t111 = parameters.gravity[0] - platform_acceleration[0];
     let t112 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
+    // legs 1, 3, 5: leg mass that moves with the platform joint
     let t113 = t106 * t107;
-    // legs 4, 5, 6: leg mass that moves with the platform joint
+    // legs 2, 4, 6: leg mass that moves with the platform joint
     let t114 = mul_add(t102, t105, t81);
     // acceleration per base coordinate of points that move with the base
     let t115 = mul_add(t110, t110, t104 * t104);
@@ -32489,9 +34154,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t119 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
     // acceleration per base coordinate of points that move with the base
     let t120 = t116 + t117;
-    // legs 1, 2, 3: leg mass that moves with the platform joint
+    // legs 1, 3, 5: leg mass that moves with the platform joint
     let t121 = mul_add(t106, t113, t87);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t122 = neg_mul_add(t32, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
     // acceleration of the base origin less gravity
     let t123 = base_acceleration[2] - parameters.gravity[2];
@@ -32505,9 +34170,9 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t127 = t90 + t126;
     // angular velocity of the platform relative to the base
     let t128 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
-    // legs 1, 2, 3: reciprocal of that extent
+    // legs 1, 3, 5: reciprocal of that extent
     let t129 = w(1.0) / t82;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t130 = neg_mul_add(t37, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
     // acceleration of the base origin less gravity
     let t131 = mul_add(t5, P::splat(t123), mul_add(t2, P::splat(t108), t109));
@@ -32519,15 +34184,15 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t134 = mul_add(t121, t12 * t12, t114 * (t19 * t19));
     let t135 = mul_add(t121, t9 * t12, t114 * (t18 * t19));
     let t136 = mul_add(t121, t12 * t13, t114 * (t19 * t20));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t137 = mul_add(t37, P::splat(P::lane(t96, 0)), t122);
     // acceleration per base coordinate of points that move with the base
     let t138 = P::triple([P::lane(t124, 0), -P::lane(t115, 1), P::lane(t120, 2)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t139 = mul_add(t33, P::splat(P::lane(t96, 2)), t130);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t140 = neg_mul_add(t40, P::splat(P::lane(t96, 2)), P::splat(P::lane(t100, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t141 = neg_mul_add(t33, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
     // acceleration of the platform origin relative to the base, less w x v
     let t142 = P::splat(P::lane(t22, 1)) * t138;
@@ -32538,17 +34203,17 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t145 = P::triple([P::lane(t100, 1), P::lane(t100, 2), P::lane(t100, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
     let t146 = P::triple([P::lane(t127, 1), P::lane(t127, 2), P::lane(t127, 0)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t147 = t37 * P::splat(P::lane(t133, 0));
-    // legs 4, 5, 6: reciprocal of that extent
+    // legs 2, 4, 6: reciprocal of that extent
     let t148 = w(1.0) / t92;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t149 = neg_mul_add(t47, P::splat(P::lane(t96, 1)), P::splat(P::lane(t100, 0)));
     // acceleration of the platform origin relative to the base, less w x v
     let t150 = mul_add(P::splat(P::lane(t22, 2)), t144, t131 + t132);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t151 = mul_add(t47, P::splat(P::lane(t96, 0)), t140);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t152 = mul_add(t32, P::splat(P::lane(t96, 1)), t141);
     // second moment of payload and platform-side leg ends
     let t153 = mul_add(t121, t9 * t9, t114 * (t18 * t18));
@@ -32557,160 +34222,160 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t156 = P::triple([P::lane(t134, 1), P::lane(t135, 1), P::lane(t136, 1)]);
     // velocity of the platform origin relative to the base
     let t157 = P::triple([P::lane(t100, 2), P::lane(t100, 0), P::lane(t100, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t158 = t33 * P::splat(P::lane(t133, 2));
     let t159 = mul_sub(t32, P::splat(P::lane(t133, 2)), t147);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t160 = mul_add(t36, P::splat(P::lane(t96, 2)), t149);
     let t161 = neg_mul_add(t36, P::splat(P::lane(t96, 0)), P::splat(P::lane(t100, 2)));
     // acceleration of the platform origin relative to the base, less w x v
     let t162 = mul_add(P::splat(P::lane(t22, 0)), t143, t142) + t150;
     // second moment of payload and platform-side leg ends
     let t163 = P::triple([P::lane(t134, 2), P::lane(t135, 2), P::lane(t136, 2)]);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t164 = mul_add(t51, t152, mul_add(t44, t139, t39 * t137));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t165 = mul_sub(t37, P::splat(P::lane(t133, 1)), t158);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t166 = mul_add(t62, t129, t39);
     // second moment of payload and platform-side leg ends
     let t167 = t155 + t156 + t163;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t168 = mul_add(P::splat(P::lane(t96, 2)), t139, t159);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t169 = t47 * P::splat(P::lane(t133, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t170 = t32 * P::splat(P::lane(t133, 1));
     // acceleration of the platform origin relative to the base, less w x v
     let t171 = mul_sub(t127, t157, t145 * t146) + t162;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t172 = mul_add(t40, P::splat(P::lane(t96, 1)), t161);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t173 = mul_add(t63, t129, t44);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t174 = neg_mul_add(t39, t164, t137);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t175 = mul_add(P::splat(P::lane(t96, 1)), t152, t165);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t176 = t36 * P::splat(P::lane(t133, 2));
     let t177 = mul_sub(t40, P::splat(P::lane(t133, 2)), t169);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t178 = mul_sub(t33, P::splat(P::lane(t133, 0)), t170);
     // second moment of payload and platform-side leg ends
     let t179 = mul_add(t121, t13 * t13, t114 * (t20 * t20));
     let t180 = P::lane(t154, 1) + P::lane(t154, 0);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t181 = neg_mul_add(P::splat(P::lane(t96, 0)), t152, t168);
-    // legs 1, 2, 3: actuator length d
+    // legs 1, 3, 5: actuator length d
     let t182 = t57 - t82;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t183 = neg_mul_add(t44, t164, t139);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t184 = mul_add(t56, t172, mul_add(t54, t160, t52 * t151));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t185 = mul_sub(t47, P::splat(P::lane(t133, 1)), t176);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t186 = mul_add(t71, t148, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t187 = mul_add(t65, t129, t51);
     // second moment of payload and platform-side leg ends
     let t188 = P::triple([P::lane(t167, 1), P::lane(t153, 2), P::lane(t154, 2)]);
     let t189 = P::triple([c(0.0), P::lane(t153, 1) + P::lane(t153, 0), t180]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t190 = neg_mul_add(P::splat(P::lane(t96, 2)), t137, t175);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t191 = mul_add(P::splat(P::lane(t96, 2)), t160, t177);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t192 = mul_add(P::splat(P::lane(t96, 0)), t137, t178);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t193 = t40 * P::splat(P::lane(t133, 1));
     // second moment of payload and platform-side leg ends
     let t194 = t188 + t189;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t195 = P::splat(P::lane(t171, 1)) + t181;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t196 = mul_add(t39, t182, t21);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t197 = mul_add(t72, t148, t54);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t198 = neg_mul_add(t52, t184, t151);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
+    // legs 1, 3, 5: rate of the offset from the actuator axis
     let t199 = neg_mul_add(t51, t164, t152);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t200 = mul_add(P::splat(P::lane(t96, 1)), t172, t185);
     let t201 = mul_sub(t36, P::splat(P::lane(t133, 0)), t193);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
     let t202 = mul_add(t152, t187, mul_add(t139, t173, t137 * t166));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t203 = t190 + P::splat(P::lane(t171, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t204 = neg_mul_add(P::splat(P::lane(t96, 0)), t172, t191);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t205 = neg_mul_add(P::splat(P::lane(t96, 1)), t139, t192);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t206 = mul_add(t44, t182, t38);
     let t207 = mul_add(t51, t182, t46);
-    // legs 4, 5, 6: actuator length d
+    // legs 2, 4, 6: actuator length d
     let t208 = t64 - t92;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t209 = P::splat(P::lane(t124, 0)) * t196;
     let t210 = P::splat(P::lane(t115, 1)) * t196;
     let t211 = P::splat(P::lane(t120, 2)) * t196;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t212 = neg_mul_add(t54, t184, t160);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t213 = mul_add(t73, t148, t56);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t214 = neg_mul_add(P::splat(P::lane(t96, 2)), t151, t200);
     let t215 = mul_add(P::splat(P::lane(t96, 0)), t151, t201);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t216 = mul_add(t199, t199, mul_add(t183, t183, t174 * t174));
     // second moment of payload and platform-side leg ends
     let t217 = P::triple([P::lane(t167, 2), P::lane(t194, 2), P::lane(t179, 2)]);
     let t218 = P::triple([c(0.0), c(0.0), P::lane(t179, 1) + P::lane(t179, 0)]);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
     let t219 = t164 - t202;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t220 = P::splat(P::lane(t171, 1)) + t204;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
     let t221 = P::splat(P::lane(t171, 2)) + t205;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t222 = mul_add(P::splat(P::lane(t120, 0)), t207, P::splat(P::lane(t131, 0)));
     let t223 = t39 * P::splat(P::lane(t75, 2));
     let t224 = mul_add(P::splat(P::lane(t124, 1)), t207, P::splat(P::lane(t131, 1)));
     let t225 = t51 * P::splat(P::lane(t75, 0));
     let t226 = neg_mul_add(P::splat(P::lane(t115, 2)), t207, P::splat(P::lane(t131, 2)));
     let t227 = t44 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t228 = mul_add(t52, t208, t45);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
+    // legs 2, 4, 6: rate of the offset from the actuator axis
     let t229 = neg_mul_add(t56, t184, t172);
     // second moment of payload and platform-side leg ends
     let t230 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
     let t231 = mul_add(t172, t213, mul_add(t160, t197, t151 * t186));
     // angular acceleration of the platform
     let t232 = P::triple([P::lane(t101, 2), P::lane(t101, 0), P::lane(t101, 1)]);
     // rotation of the platform seen from the base
     let t233 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t234 = P::splat(P::lane(t171, 0)) + t214;
     let t235 = neg_mul_add(P::splat(P::lane(t96, 1)), t160, t215);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t236 = mul_add(t187, t221, mul_add(t173, t203, t166 * t195));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t237 = mul_sub(t51, P::splat(P::lane(t75, 1)), t223);
     let t238 = mul_sub(t44, P::splat(P::lane(t75, 2)), t225);
     let t239 = mul_sub(t39, P::splat(P::lane(t75, 0)), t227);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t240 = mul_add(t54, t208, t50);
     let t241 = mul_add(t56, t208, t55);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t242 = t222 - mul_sub(P::splat(P::lane(t115, 0)), t206, t209);
     let t243 = t202 * w(2.0);
     let t244 = mul_sub(P::splat(P::lane(t120, 1)), t206, t210) + t224;
     let t245 = mul_add(P::splat(P::lane(t124, 2)), t206, t211) + t226;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t246 = P::splat(P::lane(t124, 0)) * t228;
     let t247 = P::splat(P::lane(t115, 1)) * t228;
     let t248 = P::splat(P::lane(t120, 2)) * t228;
@@ -32728,22 +34393,22 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t254 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t255 = mul_sub(t88, t233, t14 * t126);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t256 = mul_add(t229, t229, mul_add(t212, t212, t198 * t198));
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
     let t257 = t184 - t231;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
     let t258 = P::splat(P::lane(t171, 2)) + t235;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t259 = neg_mul_add(t129, mul_add(t219, t219, t216), t236);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t260 = mul_add(P::splat(P::lane(t120, 0)), t241, P::splat(P::lane(t131, 0)));
     let t261 = t52 * P::splat(P::lane(t75, 2));
     let t262 = mul_add(P::splat(P::lane(t124, 1)), t241, P::splat(P::lane(t131, 1)));
     let t263 = t56 * P::splat(P::lane(t75, 0));
     let t264 = neg_mul_add(P::splat(P::lane(t115, 2)), t241, P::splat(P::lane(t131, 2)));
     let t265 = t54 * P::splat(P::lane(t75, 1));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
     let t266 = w(1.0) - t106;
     // second moment of payload and platform-side leg ends
     let t267 = P::triple([P::lane(t167, 0), P::lane(t194, 1), P::lane(t217 + t218, 2)]);
@@ -32759,21 +34424,21 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t273 = mul_sub(t88, t253, t15 * t126);
     // rotation of the platform seen from the base
     let t274 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t275 = mul_add(t213, t258, mul_add(t197, t234, t186 * t220));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t276 = mul_sub(t56, P::splat(P::lane(t75, 1)), t261);
     let t277 = mul_sub(t54, P::splat(P::lane(t75, 2)), t263);
     let t278 = mul_sub(t52, P::splat(P::lane(t75, 0)), t265);
-    // legs 1, 2, 3: rod's inertial coupling between its ends
+    // legs 1, 3, 5: rod's inertial coupling between its ends
     let t279 = neg_mul_add(t113, t266, t87);
     // acceleration per platform coordinate of points of the platform
     let t280 = mul_add(t126, t255, mul_sub(t252, t254, t232 * t233));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t281 = neg_mul_add(t44, t259, mul_add(t237, t243, t242));
     let t282 = neg_mul_add(t39, t259, mul_add(t238, t243, t244));
     let t283 = neg_mul_add(t51, t259, mul_add(t239, t243, t245));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t284 = t260 - mul_sub(P::splat(P::lane(t115, 0)), t240, t246);
     let t285 = t231 * w(2.0);
     let t286 = mul_sub(P::splat(P::lane(t120, 1)), t240, t247) + t262;
@@ -32799,13 +34464,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // acceleration per platform coordinate of points of the platform
     let t296 = mul_add(t126, t273, mul_sub(t252, t272, t232 * t253));
     let t297 = P::triple([P::lane(t255, 2), P::lane(t255, 0), P::lane(t255, 1)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t298 = neg_mul_add(t148, mul_add(t257, t257, t256), t275);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
     let t299 = w(1.0) - t102;
     // acceleration per platform coordinate of points of the platform
     let t300 = neg_mul_add(t295, t297, t280);
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t301 = t279 * t281;
     let t302 = t279 * t282;
     let t303 = t279 * t283;
@@ -32816,12 +34481,12 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t306 = P::triple([P::lane(t268, 1), P::lane(t269, 1), P::lane(t270, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t307 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
-    // legs 4, 5, 6: rod's inertial coupling between its ends
+    // legs 2, 4, 6: rod's inertial coupling between its ends
     let t308 = neg_mul_add(t105, t299, t81);
     // acceleration per platform coordinate of points of the platform
     let t309 = neg_mul_add(t295, t307, t296);
     let t310 = mul_add(t126, t293, mul_sub(t252, t292, t232 * t274));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t311 = neg_mul_add(t54, t298, mul_add(t276, t285, t284));
     let t312 = neg_mul_add(t52, t298, mul_add(t277, t285, t286));
     let t313 = neg_mul_add(t56, t298, mul_add(t278, t285, t287));
@@ -32831,13 +34496,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t315 = P::triple([P::lane(t268, 2), P::lane(t269, 2), P::lane(t270, 2)]);
     // acceleration per platform coordinate of points of the platform
     let t316 = P::triple([P::lane(t293, 2), P::lane(t293, 0), P::lane(t293, 1)]);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
     let t317 = mul_sub(t33, t303, t37 * t302);
     let t318 = mul_sub(t37, t301, t32 * t303);
     let t319 = mul_sub(t32, t302, t33 * t301);
     // acceleration per platform coordinate of points of the platform
     let t320 = neg_mul_add(t295, t316, t310);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t321 = t308 * t311;
     let t322 = t308 * t312;
     let t323 = t308 * t313;
@@ -32847,217 +34512,309 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t325 = t1 * P::splat(external_wrench[1]);
     // first moment of payload and platform-side leg ends
     let t326 = mul_add(P::splat(parameters.payload_mass), t288, t305 + t306 + t315);
-    // first moments by platform coordinate of the payload's inertia force
-    let t327 = mul_add(P::splat(P::lane(t294, 2)), t320, t324);
-    // inertia less external wrench that the actuators must balance
-    let t328 = mul_add(t2, P::splat(external_wrench[0]), t325);
-    // first moments by platform coordinate of the payload's inertia force
-    let t329 = t300 * P::splat(P::lane(t304, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t330 = neg_mul_add(t40, t323, mul_add(t47, t321, t318));
-    let t331 = neg_mul_add(t47, t322, mul_add(t36, t323, t317));
-    let t332 = neg_mul_add(t36, t321, mul_add(t40, t322, t319));
-    // first moments by platform coordinate of the payload's inertia force
-    let t333 = mul_sub(t132, P::splat(P::lane(t326, 0)), t327);
-    let t334 = mul_add(P::splat(P::lane(t294, 0)), t309, t329);
-    // inertia less external wrench that the actuators must balance
-    let t335 = mul_add(t5, P::splat(external_wrench[2]), t328);
-    // first moments by platform coordinate of the payload's inertia force
-    let t336 = t300 * P::splat(P::lane(t294, 1));
-    let t337 = mul_add(t320, P::splat(P::lane(t294, 1)), t334);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t338 = P::triple([P::lane(t331, 0), P::lane(t330, 0), P::lane(t332, 0)]);
-    let t339 = P::triple([P::lane(t331, 1), P::lane(t330, 1), P::lane(t332, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t340 = mul_sub(t132, P::splat(P::lane(t326, 1)), t337);
-    let t341 = mul_add(t309, P::splat(P::lane(t294, 2)), t336);
-    // inertia less external wrench that the actuators must balance
-    let t342 = P::triple([P::lane(t335, 2), P::lane(t335, 0), P::lane(t335, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t343 = P::triple([P::lane(t333, 2), P::lane(t333, 0), P::lane(t333, 1)]);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t344 = P::triple([P::lane(t331, 2), P::lane(t330, 2), P::lane(t332, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t345 = mul_add(P::splat(parameters.payload_com[0]), t342, t343);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t346 = t338 + t339 + t344;
-    // first moments by platform coordinate of the payload's inertia force
-    let t347 = mul_add(t320, P::splat(P::lane(t304, 2)), t341);
     // mass of payload and platform-side leg ends
-    let t348 = t114 + t121;
+    let t327 = t114 + t121;
+    // inertia force less weight, without the actuators' own shares
+    let t328 = mul_add(t279, t281, t321);
+    let t329 = mul_add(t279, t282, t322);
+    let t330 = mul_add(t279, t283, t323);
     // first moments by platform coordinate of the payload's inertia force
-    let t349 = mul_sub(t132, P::splat(P::lane(t326, 2)), t347);
-    let t350 = P::triple([P::lane(t340, 2), P::lane(t340, 0), P::lane(t340, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t351 = mul_add(t279, t281, t321);
-    let t352 = mul_add(t279, t282, t322);
-    let t353 = mul_add(t279, t283, t323);
+    let t331 = mul_add(P::splat(P::lane(t294, 2)), t320, t324);
     // inertia less external wrench that the actuators must balance
-    let t354 = mul_add(P::splat(parameters.payload_com[1]), t342, t350);
-    let t355 = P::triple([P::lane(t345, 2), P::lane(t345, 0), P::lane(t345, 1)]);
-    let t356 = neg_mul_add(t272, t355, mul_add(t253, t345, t346));
+    let t332 = mul_add(t2, P::splat(external_wrench[0]), t325);
     // first moments by platform coordinate of the payload's inertia force
-    let t357 = P::triple([P::lane(t349, 2), P::lane(t349, 0), P::lane(t349, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t358 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
-    let t359 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    let t333 = t300 * P::splat(P::lane(t304, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t334 = neg_mul_add(t47, t322, mul_add(t36, t323, t317));
+    let t335 = neg_mul_add(t40, t323, mul_add(t47, t321, t318));
+    let t336 = neg_mul_add(t36, t321, mul_add(t40, t322, t319));
+    // first moments by platform coordinate of the payload's inertia force
+    let t337 = mul_sub(t132, P::splat(P::lane(t326, 0)), t331);
+    let t338 = mul_add(P::splat(P::lane(t294, 0)), t309, t333);
     // inertia less external wrench that the actuators must balance
-    let t360 = mul_add(P::splat(parameters.payload_com[2]), t342, t357);
-    let t361 = P::triple([P::lane(t354, 2), P::lane(t354, 0), P::lane(t354, 1)]);
+    let t339 = mul_add(t5, P::splat(external_wrench[2]), t332);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t340 = P::triple([P::lane(t187, 2), P::lane(t187, 0), P::lane(t187, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t341 = P::triple([P::lane(t173, 1), P::lane(t173, 2), P::lane(t173, 0)]);
+    let t342 = P::triple([P::lane(t187, 1), P::lane(t187, 2), P::lane(t187, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t343 = P::triple([P::lane(t166, 2), P::lane(t166, 0), P::lane(t166, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t344 = P::triple([P::lane(t328, 0), P::lane(t329, 0), P::lane(t330, 0)]);
+    let t345 = P::triple([P::lane(t328, 1), P::lane(t329, 1), P::lane(t330, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t346 = mul_add(t320, P::splat(P::lane(t294, 1)), t338);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t347 = P::triple([P::lane(t173, 2), P::lane(t173, 0), P::lane(t173, 1)]);
     // mass of payload and platform-side leg ends
-    let t362 = P::lane(t348, 2) + (P::lane(t348, 1) + P::lane(t348, 0));
-    // inertia less external wrench that the actuators must balance
-    let t363 = neg_mul_add(t254, t361, mul_add(t233, t354, t356));
-    // inertia force less weight, without the actuators' own shares
-    let t364 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
-    // mass of payload and platform-side leg ends
-    let t365 = parameters.payload_mass + t362;
-    // inertia force less weight, without the actuators' own shares
-    let t366 = mul_add(t132, P::splat(t365), t358 + t359 + t364);
-    // inertia less external wrench that the actuators must balance
-    let t367 = P::triple([P::lane(t360, 2), P::lane(t360, 0), P::lane(t360, 1)]);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t368 = mul_sub(t33, t187, t37 * t166);
-    // inertia less external wrench that the actuators must balance
-    let t369 = neg_mul_add(t292, t367, mul_add(t274, t360, t363));
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t370 = mul_sub(t36, t213, t47 * t186);
-    // inertia force less weight, without the actuators' own shares
-    let t371 = mul_sub(t309, P::splat(P::lane(t326, 0)), t366);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t372 = mul_sub(t37, t173, t32 * t187);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t373 = mul_sub(t47, t197, t40 * t213);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t374 = mul_sub(t32, t166, t33 * t173);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t375 = mul_sub(t40, t186, t36 * t197);
-    // inertia less external wrench that the actuators must balance
-    let t376 = mul_add(t2, P::splat(external_wrench[3]), t369);
-    // inertia force less weight, without the actuators' own shares
-    let t377 = mul_add(t300, P::splat(P::lane(t326, 1)), t371);
-    // inertia less external wrench that the actuators must balance
-    let t378 = mul_add(t1, P::splat(external_wrench[4]), t376);
-    // inertia force less weight, without the actuators' own shares
-    let t379 = mul_add(t320, P::splat(P::lane(t326, 2)), t377);
-    // inertia less external wrench that the actuators must balance
-    let t380 = mul_add(t5, P::splat(external_wrench[5]), t378);
-    let t381 = t379 - t335;
-    let t382 = -P::lane(t380, 0);
-    let t383 = -P::lane(t380, 1);
-    let t384 = -P::lane(t380, 2);
+    let t348 = P::lane(t327, 2) + (P::lane(t327, 1) + P::lane(t327, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t349 = t300 * P::splat(P::lane(t294, 1));
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t350 = P::triple([P::lane(t166, 1), P::lane(t166, 2), P::lane(t166, 0)]);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t351 = mul_sub(t342, t347, t340 * t341);
+    let t352 = mul_sub(t340, t350, t342 * t343);
+    // inertia force less weight, without the actuators' own shares
+    let t353 = P::triple([P::lane(t328, 2), P::lane(t329, 2), P::lane(t330, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t354 = P::triple([P::lane(t334, 0), P::lane(t335, 0), P::lane(t336, 0)]);
+    let t355 = P::triple([P::lane(t334, 1), P::lane(t335, 1), P::lane(t336, 1)]);
+    // mass of payload and platform-side leg ends
+    let t356 = parameters.payload_mass + t348;
+    // first moments by platform coordinate of the payload's inertia force
+    let t357 = mul_sub(t132, P::splat(P::lane(t326, 1)), t346);
+    let t358 = mul_add(t309, P::splat(P::lane(t294, 2)), t349);
+    // inertia less external wrench that the actuators must balance
+    let t359 = P::triple([P::lane(t339, 2), P::lane(t339, 0), P::lane(t339, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t360 = P::triple([P::lane(t337, 2), P::lane(t337, 0), P::lane(t337, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t361 = mul_add(P::splat(parameters.payload_com[0]), t359, t360);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t362 = P::triple([P::lane(t334, 2), P::lane(t335, 2), P::lane(t336, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t363 = mul_add(t132, P::splat(t356), t344 + t345 + t353);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t364 = t354 + t355 + t362;
+    // force along the actuator that balances the remaining wrench
+    let t365 = t186 * P::splat(P::lane(t351, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t366 = mul_add(t320, P::splat(P::lane(t304, 2)), t358);
+    // force along the actuator that balances the remaining wrench
+    let t367 = mul_sub(t341, t343, t347 * t350);
+    let t368 = mul_add(t197, P::splat(P::lane(t352, 0)), t365);
+    let t369 = P::lane(t173, 1) * P::lane(t352, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t370 = mul_sub(t309, P::splat(P::lane(t326, 0)), t363);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t371 = mul_sub(t37, t173, t32 * t187);
+    let t372 = mul_sub(t32, t166, t33 * t173);
+    // first moments by platform coordinate of the payload's inertia force
+    let t373 = mul_sub(t132, P::splat(P::lane(t326, 2)), t366);
+    let t374 = P::triple([P::lane(t357, 2), P::lane(t357, 0), P::lane(t357, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t375 = mul_add(P::splat(parameters.payload_com[1]), t359, t374);
+    let t376 = P::triple([P::lane(t361, 2), P::lane(t361, 0), P::lane(t361, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t377 = P::mul_add(P::lane(t173, 0), P::lane(t352, 0), t369);
+    // inertia less external wrench that the actuators must balance
+    let t378 = neg_mul_add(t272, t376, mul_add(t253, t361, t364));
+    // force along the actuator that balances the remaining wrench
+    let t379 = mul_add(t213, P::splat(P::lane(t367, 0)), t368);
+    let t380 = t186 * P::splat(P::lane(t351, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t381 = mul_add(t300, P::splat(P::lane(t326, 1)), t370);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t382 = mul_sub(t47, t197, t40 * t213);
+    let t383 = mul_sub(t40, t186, t36 * t197);
+    // force along the actuator that balances the remaining wrench
+    let t384 = mul_add(t197, P::splat(P::lane(t352, 1)), t380);
+    let t385 = P::mul_add(P::lane(t173, 2), P::lane(t352, 2), t377);
+    let t386 = t186 * P::splat(P::lane(t351, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t387 = mul_add(t320, P::splat(P::lane(t326, 2)), t381);
+    // first moments by platform coordinate of the payload's inertia force
+    let t388 = P::triple([P::lane(t373, 2), P::lane(t373, 0), P::lane(t373, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t389 = mul_add(P::splat(parameters.payload_com[2]), t359, t388);
+    let t390 = P::triple([P::lane(t375, 2), P::lane(t375, 0), P::lane(t375, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t391 = mul_add(t213, P::splat(P::lane(t367, 1)), t384);
+    let t392 = mul_add(t197, P::splat(P::lane(t352, 2)), t386);
+    let t393 = mul_sub(t382, P::splat(t385), t379 * P::splat(P::lane(t371, 0)));
+    let t394 = mul_sub(t383, P::splat(t385), t379 * P::splat(P::lane(t372, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t395 = neg_mul_add(t254, t390, mul_add(t233, t375, t378));
+    let t396 = t387 - t339;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t397 = mul_sub(t33, t187, t37 * t166);
+    // force along the actuator that balances the remaining wrench
+    let t398 = mul_add(t213, P::splat(P::lane(t367, 2)), t392);
+    let t399 = neg_mul_add(P::splat(P::lane(t371, 1)), t391, t393);
+    let t400 = neg_mul_add(P::splat(P::lane(t372, 1)), t391, t394);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t401 = mul_sub(t36, t213, t47 * t186);
+    // inertia less external wrench that the actuators must balance
+    let t402 = P::triple([P::lane(t389, 2), P::lane(t389, 0), P::lane(t389, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t403 = neg_mul_add(P::splat(P::lane(t371, 2)), t398, t399);
+    let t404 = neg_mul_add(P::splat(P::lane(t372, 2)), t398, t400);
+    // inertia less external wrench that the actuators must balance
+    let t405 = neg_mul_add(t292, t402, mul_add(t274, t389, t395));
+    // force along the actuator that balances the remaining wrench
+    let t406 = t351 * P::splat(P::lane(t396, 1));
+    let t407 = mul_add(t352, P::splat(P::lane(t396, 0)), t406);
+    let t408 = mul_sub(P::splat(t385), t401, t379 * P::splat(P::lane(t397, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t409 = mul_add(t2, P::splat(external_wrench[3]), t405);
+    // force along the actuator that balances the remaining wrench
+    let t410 = mul_add(t367, P::splat(P::lane(t396, 2)), t407);
+    let t411 = neg_mul_add(t391, P::splat(P::lane(t397, 1)), t408);
+    let t412 = P::triple([P::lane(t403, 2), P::lane(t403, 0), P::lane(t403, 1)]);
+    let t413 = P::triple([P::lane(t403, 1), P::lane(t403, 2), P::lane(t403, 0)]);
+    let t414 = P::triple([P::lane(t404, 1), P::lane(t404, 2), P::lane(t404, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t415 = mul_add(t1, P::splat(external_wrench[4]), t409);
+    // force along the actuator that balances the remaining wrench
+    let t416 = P::triple([P::lane(t404, 2), P::lane(t404, 0), P::lane(t404, 1)]);
+    let t417 = neg_mul_add(t398, P::splat(P::lane(t397, 2)), t411);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t418 = P::triple([P::lane(t397, 0), P::lane(t371, 0), P::lane(t372, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t419 = mul_sub(t413, t416, t412 * t414);
+    // inertia less external wrench that the actuators must balance
+    let t420 = mul_add(t5, P::splat(external_wrench[5]), t415);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t421 = P::triple([P::lane(t397, 1), P::lane(t371, 1), P::lane(t372, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t422 = mul_add(P::splat(t385), t420, P::splat(P::lane(t410, 0)) * t418);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t423 = P::triple([P::lane(t397, 2), P::lane(t371, 2), P::lane(t372, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t424 = P::triple([P::lane(t417, 1), P::lane(t417, 2), P::lane(t417, 0)]);
+    let t425 = P::triple([P::lane(t417, 2), P::lane(t417, 0), P::lane(t417, 1)]);
+    let t426 = P::lane(t417, 1) * P::lane(t419, 1);
+    let t427 = mul_add(P::splat(P::lane(t410, 1)), t421, t422);
+    let t428 = P::mul_add(P::lane(t417, 0), P::lane(t419, 0), t426);
+    let t429 = mul_add(P::splat(P::lane(t410, 2)), t423, t427);
+    let t430 = mul_sub(t412, t424, t413 * t425);
+    let t431 = P::triple([P::lane(t379, 0), P::lane(t391, 0), P::lane(t398, 0)]);
+    let t432 = c(1.0) / P::mul_add(P::lane(t417, 2), P::lane(t419, 2), t428);
+    let t433 = P::triple([P::lane(t379, 1), P::lane(t391, 1), P::lane(t398, 1)]);
+    let t434 = mul_sub(t414, t425, t416 * t424) * P::splat(P::lane(t429, 1));
+    let t435 = P::triple([P::lane(t379, 2), P::lane(t391, 2), P::lane(t398, 2)]);
+    let t436 = mul_add(t419, P::splat(P::lane(t429, 0)), t434);
+    let t437 = P::splat(t432) * mul_add(t430, P::splat(P::lane(t429, 2)), t436);
+    // inertia less external wrench that the actuators must balance
+    let t438 = -P::lane(t420, 0);
+    let t439 = -P::lane(t420, 1);
+    let t440 = -P::lane(t420, 2);
+    // force along the actuator that balances the remaining wrench
+    let t441 = -t437;
+    let t442 = mul_add(t431, P::splat(P::lane(t437, 0)), t410);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t443 = t9 * P::splat(P::lane(t300, 1));
+    // force along the actuator that balances the remaining wrench
+    let t444 = mul_add(t433, P::splat(P::lane(t437, 1)), t442);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t445 = t18 * P::splat(P::lane(t300, 1));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t446 = t9 * P::splat(P::lane(t300, 0));
+    let t447 = neg_mul_add(t13, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t448 = mul_add(t435, P::splat(P::lane(t437, 2)), t444);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t449 = t18 * P::splat(P::lane(t300, 0));
+    let t450 = neg_mul_add(t20, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t451 = P::splat(c(1.0) / t385) * t448;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t452 = neg_mul_add(t13, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t453 = neg_mul_add(t20, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t454 = t9 * P::splat(P::lane(t300, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t455 = t18 * P::splat(P::lane(t300, 2));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t456 = t452 - mul_add(t12, P::splat(P::lane(t309, 0)), t446);
+    let t457 = neg_mul_add(t13, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t441, t451],
         &[
-            [P::lane(t173, 0), P::lane(t173, 1), P::lane(t173, 2), P::lane(t197, 0), P::lane(t197, 1), P::lane(t197, 2)],
-            [P::lane(t166, 0), P::lane(t166, 1), P::lane(t166, 2), P::lane(t186, 0), P::lane(t186, 1), P::lane(t186, 2)],
-            [P::lane(t187, 0), P::lane(t187, 1), P::lane(t187, 2), P::lane(t213, 0), P::lane(t213, 1), P::lane(t213, 2)],
-            [P::lane(t368, 0), P::lane(t368, 1), P::lane(t368, 2), P::lane(t370, 0), P::lane(t370, 1), P::lane(t370, 2)],
-            [P::lane(t372, 0), P::lane(t372, 1), P::lane(t372, 2), P::lane(t373, 0), P::lane(t373, 1), P::lane(t373, 2)],
-            [P::lane(t374, 0), P::lane(t374, 1), P::lane(t374, 2), P::lane(t375, 0), P::lane(t375, 1), P::lane(t375, 2)],
+            [t197, t173],
+            [t186, t166],
+            [t213, t187],
+            [t401, t397],
+            [t382, t371],
+            [t383, t372],
         ],
-        &[P::lane(t381, 0), P::lane(t381, 1), P::lane(t381, 2), t382, t383, t384],
+        &[P::lane(t396, 0), P::lane(t396, 1), P::lane(t396, 2), t438, t439, t440],
+        &[1, 3, 5, 0, 2, 4],
     );
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t385 = t9 * P::splat(P::lane(t300, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t386 = t18 * P::splat(P::lane(t300, 1));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t387 = t9 * P::splat(P::lane(t300, 0));
-    let t388 = neg_mul_add(t13, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t389 = t18 * P::splat(P::lane(t300, 0));
-    let t390 = neg_mul_add(t20, P::splat(P::lane(t320, 1)), P::splat(P::lane(t132, 1)));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t391 = neg_mul_add(t13, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t392 = neg_mul_add(t20, P::splat(P::lane(t320, 0)), P::splat(P::lane(t132, 0)));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t393 = t9 * P::splat(P::lane(t300, 2));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t394 = t18 * P::splat(P::lane(t300, 2));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t395 = t391 - mul_add(t12, P::splat(P::lane(t309, 0)), t387);
-    let t396 = neg_mul_add(t13, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
-    let t397 = t39 * (t388 - mul_add(t12, P::splat(P::lane(t309, 1)), t385));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t398 = t392 - mul_add(t19, P::splat(P::lane(t309, 0)), t389);
-    let t399 = t52 * (t390 - mul_add(t19, P::splat(P::lane(t309, 1)), t386));
-    let t400 = neg_mul_add(t20, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t458 = t39 * (t447 - mul_add(t12, P::splat(P::lane(t309, 1)), t443));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t459 = t453 - mul_add(t19, P::splat(P::lane(t309, 0)), t449);
+    let t460 = t52 * (t450 - mul_add(t19, P::splat(P::lane(t309, 1)), t445));
+    let t461 = neg_mul_add(t20, P::splat(P::lane(t320, 2)), P::splat(P::lane(t132, 2)));
     // constant and copied elements
-    let t401 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t402 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t403 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t404 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t405 = t396 - mul_add(t12, P::splat(P::lane(t309, 2)), t393);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t406 = t400 - mul_add(t19, P::splat(P::lane(t309, 2)), t394);
+    let t462 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t463 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t464 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t465 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t466 = t457 - mul_add(t12, P::splat(P::lane(t309, 2)), t454);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t467 = t461 - mul_add(t19, P::splat(P::lane(t309, 2)), t455);
     // constant and copied elements
-    let t407 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t408 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t409 = mul_add(t51, t405, mul_add(t44, t395, t397));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t410 = mul_add(t56, t406, mul_add(t54, t398, t399));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t411 = mul_add(t182 - t401, t407, t202 * t402);
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t412 = mul_add(t208 - t403, t408, t231 * t404);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t413 = mul_add(t51, t283, mul_add(t44, t281, t39 * t282));
-    let t414 = mul_add(t239, t239, mul_add(t237, t237, t238 * t238));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t415 = mul_add(t56, t313, mul_add(t54, t311, t52 * t312));
-    let t416 = mul_add(t278, t278, mul_add(t276, t276, t277 * t277));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t417 = mul_add(t266, t107 * t266, t87);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t418 = mul_add(t299, t103 * t299, t81);
+    let t468 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    let t469 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t470 = mul_add(t51, t466, mul_add(t44, t456, t458));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t471 = mul_add(t56, t467, mul_add(t54, t459, t460));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t472 = mul_add(t182 - t462, t468, t202 * t463);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t473 = mul_add(t208 - t464, t469, t231 * t465);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t474 = mul_add(t51, t283, mul_add(t44, t281, t39 * t282));
+    let t475 = mul_add(t239, t239, mul_add(t237, t237, t238 * t238));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t476 = mul_add(t56, t313, mul_add(t54, t311, t52 * t312));
+    let t477 = mul_add(t278, t278, mul_add(t276, t276, t277 * t277));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t478 = mul_add(t266, t107 * t266, t87);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t479 = mul_add(t299, t103 * t299, t81);
     // constant and copied elements
-    let t419 =
-        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
-    let t420 =
-        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t421 = mul_add(t414, t419, t413);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t422 = mul_add(t416, t420, t415);
+    let t480 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[2], parameters.mover_offset[4]]);
+    let t481 =
+        P::triple([parameters.mover_offset[1], parameters.mover_offset[3], parameters.mover_offset[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t482 = mul_add(t475, t480, t474);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t483 = mul_add(t477, t481, t476);
     // constant and copied elements
-    let t423 =
-        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
-    let t424 =
-        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
-    // legs 1, 2, 3: actuator forces F
-    let t425 = mul_add(t413, t417, mul_add(t279, t409, t411));
-    // legs 4, 5, 6: actuator forces F
-    let t426 = mul_add(t415, t418, mul_add(t308, t410, t412));
+    let t484 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[2], parameters.mover_mass[4]]);
+    let t485 =
+        P::triple([parameters.mover_mass[1], parameters.mover_mass[3], parameters.mover_mass[5]]);
+    // legs 1, 3, 5: actuator forces F
+    let t486 = mul_add(t474, t478, mul_add(t279, t470, t472));
+    // legs 2, 4, 6: actuator forces F
+    let t487 = mul_add(t476, t479, mul_add(t308, t471, t473));
     // force along the actuator that balances the remaining wrench
-    let t427 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
-    // legs 1, 2, 3: actuator forces F
-    let t428 = mul_add(t421, t423, t425) + t427;
+    let t488 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t489 = mul_add(t482, t484, t486) + t488;
     // force along the actuator that balances the remaining wrench
-    let t429 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
-    // legs 4, 5, 6: actuator forces F
-    let t430 = mul_add(t422, t424, t426) + t429;
+    let t490 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t491 = mul_add(t483, t485, t487) + t490;
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t428, 0);
+    inverse_dynamics[0] = P::lane(t489, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t428, 1);
+    inverse_dynamics[1] = P::lane(t491, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t428, 2);
+    inverse_dynamics[2] = P::lane(t489, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t430, 0);
+    inverse_dynamics[3] = P::lane(t491, 1);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t430, 1);
+    inverse_dynamics[4] = P::lane(t489, 2);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t430, 2);
+    inverse_dynamics[5] = P::lane(t491, 2);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -33477,16 +35234,16 @@ pub fn control_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -33496,1319 +35253,1418 @@ pub fn control_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
-    let t27 = t9 * P::splat(P::lane(t14, 2));
-    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t29 = t18 * P::splat(P::lane(t14, 0));
-    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
-    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
-    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t12 * P::splat(P::lane(t14, 1));
+    let t26 = t12 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t27 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    let t28 = t9 * P::splat(P::lane(t14, 2));
+    let t29 = mul_add(t13, P::splat(P::lane(t15, 1)), t24);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t18, P::splat(P::lane(t15, 1)), t25);
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t26);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t28);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t27);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
     // constant and copied elements
-    let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    let t39 =
-        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[1][1], parameters.actuator_axis[2][1]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
-    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
-    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
-    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    let t40 =
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 2, 4, 6: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
     // constant and copied elements
-    let t44 =
-        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[1][0], parameters.actuator_axis[2][0]]);
+    let t43 =
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t35 - t40;
+    // constant and copied elements
     let t45 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
-    let t46 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
-    // legs 4, 5, 6: platform joint from the base point
-    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
-    // legs 1, 2, 3: platform joint from the base point
-    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+        P::triple([parameters.actuator_axis[1][1], parameters.actuator_axis[3][1], parameters.actuator_axis[5][1]]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t43;
+    // constant and copied elements
+    let t47 =
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    let t48 =
+        P::triple([parameters.actuator_axis[0][1], parameters.actuator_axis[2][1], parameters.actuator_axis[4][1]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = t37 + P::splat(P::lane(t22, 0)) - t47;
     // constant and copied elements
     let t50 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.actuator_axis[1][0], parameters.actuator_axis[3][0], parameters.actuator_axis[5][0]]);
     let t51 =
-        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[1][2], parameters.actuator_axis[2][2]]);
-    let t52 =
-        P::triple([parameters.actuator_axis[3][1], parameters.actuator_axis[4][1], parameters.actuator_axis[5][1]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t52 = P::splat(P::lane(t22, 2)) + t39 - t51;
     // constant and copied elements
+    let t53 =
+        P::triple([parameters.actuator_axis[0][0], parameters.actuator_axis[2][0], parameters.actuator_axis[4][0]]);
     let t54 =
-        P::triple([parameters.actuator_axis[3][0], parameters.actuator_axis[4][0], parameters.actuator_axis[5][0]]);
-    let t55 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t41 - t54;
+    // constant and copied elements
     let t56 =
-        P::triple([parameters.actuator_axis[3][2], parameters.actuator_axis[4][2], parameters.actuator_axis[5][2]]);
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
-    // legs 4, 5, 6: platform joint from the base point
-    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+        P::triple([parameters.actuator_axis[1][2], parameters.actuator_axis[3][2], parameters.actuator_axis[5][2]]);
+    let t57 =
+        P::triple([parameters.actuator_axis[0][2], parameters.actuator_axis[2][2], parameters.actuator_axis[4][2]]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t52, t56, mul_add(t46, t50, t42 * t45));
     // constant and copied elements
     let t59 =
-        P::triple([parameters.rod_length[0], parameters.rod_length[1], parameters.rod_length[2]]);
+        P::triple([parameters.rod_length[1], parameters.rod_length[3], parameters.rod_length[5]]);
     // angular velocity of the base
     let t60 = t1 * P::splat(base_velocity[4]);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
+    // legs 2, 4, 6: extent of the rod along the actuator axis
     let t61 = t59 * t59;
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t62 = neg_mul_add(t39, t57, t43);
-    let t63 = neg_mul_add(t44, t57, t42);
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t64 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
-    // legs 1, 2, 3: offset of the platform joint from the actuator axis
-    let t65 = neg_mul_add(t51, t57, t49);
-    // angular velocity of the base
-    let t66 = mul_add(t2, P::splat(base_velocity[3]), t60);
-    // velocity of the platform origin relative to the base
-    let t67 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t62 = mul_add(t55, t57, mul_add(t49, t53, t44 * t48));
     // constant and copied elements
-    let t68 =
-        P::triple([parameters.rod_length[3], parameters.rod_length[4], parameters.rod_length[5]]);
-    // angular velocity of the platform
-    let t69 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t70 = t68 * t68;
-    // legs 4, 5, 6: offset of the platform joint from the actuator axis
-    let t71 = neg_mul_add(t52, t64, t48);
-    let t72 = neg_mul_add(t54, t64, t53);
-    let t73 = neg_mul_add(t56, t64, t58);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t74 = mul_add(t63, t63, t62 * t62);
+    let t63 =
+        P::triple([parameters.rod_length[0], parameters.rod_length[2], parameters.rod_length[4]]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t64 = t63 * t63;
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t65 = neg_mul_add(t45, t58, t42);
+    let t66 = neg_mul_add(t50, t58, t46);
+    let t67 = neg_mul_add(t56, t58, t52);
     // angular velocity of the base
-    let t75 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    let t68 = mul_add(t2, P::splat(base_velocity[3]), t60);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t48, t62, t44);
+    let t70 = neg_mul_add(t53, t62, t49);
+    let t71 = neg_mul_add(t57, t62, t55);
     // velocity of the platform origin relative to the base
-    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t67);
+    let t72 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t73 = mul_add(t5, P::splat(base_velocity[5]), t68);
     // angular velocity of the platform
-    let t77 = mul_add(t2, P::splat(platform_velocity[3]), t69);
+    let t74 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t75 = mul_add(t66, t66, t65 * t65);
+    // velocity of the platform origin relative to the base
+    let t76 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t72);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t77 = mul_add(t70, t70, t69 * t69);
+    // angular velocity of the platform
+    let t78 = mul_add(t2, P::splat(platform_velocity[3]), t74);
     // angular acceleration of the base
-    let t78 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t79 = mul_add(t72, t72, t71 * t71);
+    let t79 = t1 * P::splat(base_acceleration[4]);
     // velocity of the platform origin relative to the base
     let t80 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t76);
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t81 = sqrt(neg_mul_add(t65, t65, t61) - t74);
-    // angular acceleration of the base
-    let t82 = mul_add(t2, P::splat(base_acceleration[3]), t78);
     // angular velocity of the platform
-    let t83 = mul_add(t5, P::splat(platform_velocity[5]), t77);
+    let t81 = mul_add(t5, P::splat(platform_velocity[5]), t78);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t82 = sqrt(neg_mul_add(t67, t67, t61) - t75);
+    // angular acceleration of the base
+    let t83 = mul_add(t2, P::splat(base_acceleration[3]), t79);
     // platform origin seen from the base
     let t84 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     // angular velocity of the base
-    let t85 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t85 = P::triple([P::lane(t73, 1), P::lane(t73, 2), P::lane(t73, 0)]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t86 = sqrt(neg_mul_add(t71, t71, t64) - t77);
     // constant and copied elements
-    let t86 =
-        P::triple([parameters.rod_inertia[3], parameters.rod_inertia[4], parameters.rod_inertia[5]]);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t87 = t86 / t70;
+    let t87 =
+        P::triple([parameters.rod_inertia[1], parameters.rod_inertia[3], parameters.rod_inertia[5]]);
+    // angular velocity of the base
+    let t88 = P::triple([P::lane(t73, 0), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t89 = P::triple([P::lane(t73, 1), P::lane(t73, 1), P::lane(t73, 2)]);
     // angular acceleration of the base
-    let t88 = mul_add(t5, P::splat(base_acceleration[5]), t82);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t89 = sqrt(neg_mul_add(t73, t73, t70) - t79);
-    // angular velocity of the base
-    let t90 = P::triple([P::lane(t75, 0), P::lane(t75, 2), P::lane(t75, 0)]);
-    let t91 = P::triple([P::lane(t75, 1), P::lane(t75, 1), P::lane(t75, 2)]);
-    // constant and copied elements
-    let t92 =
-        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[1], parameters.rod_inertia[2]]);
+    let t90 = mul_add(t5, P::splat(base_acceleration[5]), t83);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t91 = t87 / t61;
     // angular velocity of the platform relative to the base
-    let t93 = t75 - t83;
+    let t92 = t73 - t81;
     // platform origin seen from the base
-    let t94 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    let t93 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
     // angular velocity of the base
-    let t95 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t94 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t96 = t90 * t91;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t97 = t92 / t61;
+    let t95 = t88 * t89;
     // velocity of the platform origin relative to the base
-    let t98 = mul_add(t94, t95, neg_mul_add(t84, t85, t80));
+    let t96 = mul_add(t93, t94, neg_mul_add(t84, t85, t80));
+    // constant and copied elements
+    let t97 =
+        P::triple([parameters.rod_inertia[0], parameters.rod_inertia[2], parameters.rod_inertia[4]]);
     // angular velocity of the base
-    let t99 = P::triple([P::lane(t75, 2), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t98 = P::triple([P::lane(t73, 2), P::lane(t73, 2), P::lane(t73, 0)]);
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t99 = t97 / t64;
     // acceleration of the base origin less gravity
     let t100 = base_acceleration[0] - parameters.gravity[0];
     let t101 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
     // angular velocity of the base
-    let t102 = P::triple([P::lane(t75, 1), P::lane(t75, 0), P::lane(t75, 1)]);
+    let t102 = P::triple([P::lane(t73, 1), P::lane(t73, 0), P::lane(t73, 1)]);
     // acceleration of the platform origin less gravity
     let t103 = t1 * P::splat(parameters.gravity[1]);
     // acceleration per base coordinate of points that move with the base
-    let t104 = mul_add(t102, t102, t99 * t99);
-    // constant and copied elements
-    let t105 =
-        P::triple([parameters.rod_com_fraction[3], parameters.rod_com_fraction[4], parameters.rod_com_fraction[5]]);
-    let t106 = P::triple([parameters.rod_mass[3], parameters.rod_mass[4], parameters.rod_mass[5]]);
+    let t104 = mul_add(t102, t102, t98 * t98);
     // angular acceleration of the base
-    let t107 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    let t105 = P::triple([P::lane(t90, 1), P::lane(t90, 2), P::lane(t90, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t108 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    let t106 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
     // angular velocity of the platform relative to the base
-    let t109 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t110 = t105 * t106;
+    let t107 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
     // angular acceleration of the base
-    let t111 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    let t108 = P::triple([P::lane(t90, 2), P::lane(t90, 0), P::lane(t90, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t112 = t107 + t108;
+    let t109 = t105 + t106;
     // acceleration of the platform origin less gravity
-    let t113 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t114 = neg_mul_add(t32, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
-    // acceleration of the base origin less gravity
-    let t115 = base_acceleration[2] - parameters.gravity[2];
-    // acceleration per base coordinate of points that move with the base
-    let t116 = mul_sub(t90, t91, t111);
+    let t110 = mul_add(t2, P::splat(parameters.gravity[0]), t103);
     // constant and copied elements
-    let t117 =
-        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[1], parameters.rod_com_fraction[2]]);
-    let t118 = P::triple([parameters.rod_mass[0], parameters.rod_mass[1], parameters.rod_mass[2]]);
+    let t111 =
+        P::triple([parameters.rod_com_fraction[1], parameters.rod_com_fraction[3], parameters.rod_com_fraction[5]]);
+    let t112 = P::triple([parameters.rod_mass[1], parameters.rod_mass[3], parameters.rod_mass[5]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t36, P::splat(P::lane(t92, 2)), P::splat(P::lane(t96, 1)));
+    // acceleration of the base origin less gravity
+    let t114 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t115 = mul_sub(t88, t89, t108);
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t116 = t111 * t112;
     // angular velocity of the platform
-    let t119 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t120 = t117 * t118;
-    // legs 4, 5, 6: leg mass that moves with the platform joint
-    let t121 = mul_add(t105, t110, t87);
+    let t117 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t118 = neg_mul_add(t37, P::splat(P::lane(t92, 2)), P::splat(P::lane(t96, 1)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t122 = t85 + t119;
+    let t119 = t85 + t117;
     // angular velocity of the platform relative to the base
-    let t123 = P::triple([P::lane(t93, 1), P::lane(t93, 2), P::lane(t93, 0)]);
-    // legs 1, 2, 3: reciprocal of that extent
-    let t124 = w(1.0) / t81;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t125 = neg_mul_add(t37, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    let t120 = P::triple([P::lane(t92, 1), P::lane(t92, 2), P::lane(t92, 0)]);
+    // legs 2, 4, 6: reciprocal of that extent
+    let t121 = w(1.0) / t82;
+    // constant and copied elements
+    let t122 =
+        P::triple([parameters.rod_com_fraction[0], parameters.rod_com_fraction[2], parameters.rod_com_fraction[4]]);
+    let t123 = P::triple([parameters.rod_mass[0], parameters.rod_mass[2], parameters.rod_mass[4]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t124 = neg_mul_add(t39, P::splat(P::lane(t92, 1)), P::splat(P::lane(t96, 0)));
     // acceleration of the base origin less gravity
-    let t126 = mul_add(t5, P::splat(t115), mul_add(t2, P::splat(t100), t101));
+    let t125 = mul_add(t5, P::splat(t114), mul_add(t2, P::splat(t100), t101));
     // acceleration of the platform origin less gravity
-    let t127 = mul_add(t5, P::splat(parameters.gravity[2]), t113);
+    let t126 = mul_add(t5, P::splat(parameters.gravity[2]), t110);
     // rate of that angular velocity
-    let t128 = mul_add(t95, t123, neg_mul_add(t85, t109, t88));
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t129 = w(1.0) - t117;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t130 = mul_add(t37, P::splat(P::lane(t93, 0)), t114);
-    // legs 1, 2, 3: leg mass that moves with the platform joint
-    let t131 = mul_add(t117, t120, t97);
+    let t127 = mul_add(t94, t120, neg_mul_add(t85, t107, t90));
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t128 = t122 * t123;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t129 = mul_add(t111, t116, t91);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t130 = mul_add(t39, P::splat(P::lane(t92, 0)), t113);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t131 = w(1.0) / t86;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t41, P::splat(P::lane(t92, 1)), P::splat(P::lane(t96, 0)));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t133 = w(1.0) - t122;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t134 = mul_add(t41, P::splat(P::lane(t92, 0)), t118);
     // acceleration per base coordinate of points that move with the base
-    let t132 = P::triple([P::lane(t116, 0), -P::lane(t104, 1), P::lane(t112, 2)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t133 = mul_add(t33, P::splat(P::lane(t93, 2)), t125);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t134 = neg_mul_add(t40, P::splat(P::lane(t93, 2)), P::splat(P::lane(t98, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t135 = neg_mul_add(t33, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
+    let t135 = P::triple([P::lane(t115, 0), -P::lane(t104, 1), P::lane(t109, 2)]);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t136 = w(1.0) - t111;
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t137 = mul_add(t122, t128, t99);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t138 = mul_add(t34, P::splat(P::lane(t92, 2)), t124);
+    let t139 = neg_mul_add(t34, P::splat(P::lane(t92, 0)), P::splat(P::lane(t96, 2)));
     // acceleration of the platform origin relative to the base, less w x v
-    let t136 = P::splat(P::lane(t22, 1)) * t132;
-    // second moment of payload and platform-side leg ends
-    let t137 = mul_add(t131, t12 * t12, t121 * (t19 * t19));
-    let t138 = mul_add(t131, t9 * t12, t121 * (t18 * t19));
-    let t139 = mul_add(t131, t12 * t13, t121 * (t19 * t20));
+    let t140 = P::splat(P::lane(t22, 1)) * t135;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t141 = mul_add(t35, P::splat(P::lane(t92, 2)), t132);
+    let t142 = neg_mul_add(t35, P::splat(P::lane(t92, 0)), P::splat(P::lane(t96, 2)));
     // acceleration per base coordinate of points that move with the base
-    let t140 = P::triple([-P::lane(t104, 0), P::lane(t112, 1), P::lane(t116, 2)]);
-    let t141 = P::triple([P::lane(t112, 0), P::lane(t116, 1), -P::lane(t104, 2)]);
+    let t143 = P::triple([-P::lane(t104, 0), P::lane(t109, 1), P::lane(t115, 2)]);
+    let t144 = P::triple([P::lane(t109, 0), P::lane(t115, 1), -P::lane(t104, 2)]);
     // velocity of the platform origin relative to the base
-    let t142 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    let t145 = P::triple([P::lane(t96, 1), P::lane(t96, 2), P::lane(t96, 0)]);
     // acceleration of the platform origin relative to the base, less w x v
-    let t143 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t144 = t37 * P::splat(P::lane(t128, 0));
-    // legs 4, 5, 6: reciprocal of that extent
-    let t145 = w(1.0) / t89;
-    // legs 1, 2, 3: rod's end mass at the Hooke joint
-    let t146 = mul_add(t129, t118 * t129, t97);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t147 = neg_mul_add(t47, P::splat(P::lane(t93, 1)), P::splat(P::lane(t98, 0)));
+    let t146 = P::triple([P::lane(t119, 1), P::lane(t119, 2), P::lane(t119, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t147 = t39 * P::splat(P::lane(t127, 0));
     // acceleration of the platform origin relative to the base, less w x v
-    let t148 = mul_add(P::splat(P::lane(t22, 2)), t141, t126 + t127);
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t149 = w(1.0) - t105;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t150 = mul_add(t47, P::splat(P::lane(t93, 0)), t134);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t151 = mul_add(t32, P::splat(P::lane(t93, 1)), t135);
+    let t148 = mul_add(P::splat(P::lane(t22, 2)), t144, t125 + t126);
+    // second moment of payload and platform-side leg ends
+    let t149 = mul_add(t137, t18 * t18, t129 * (t13 * t13));
+    let t150 = mul_add(t137, t12 * t18, t129 * (t9 * t13));
+    let t151 = mul_add(t137, t18 * t20, t129 * (t13 * t19));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t152 = mul_add(t36, P::splat(P::lane(t92, 1)), t139);
+    // rotation of the platform seen from the base
+    let t153 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t154 = t41 * P::splat(P::lane(t127, 0));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t155 = mul_add(t133, t123 * t133, t99);
+    // acceleration per platform coordinate of points of the platform
+    let t156 = mul_sub(t81, t153, t14 * t117);
     // velocity of the platform origin relative to the base
-    let t152 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t153 = t33 * P::splat(P::lane(t128, 2));
-    let t154 = mul_sub(t32, P::splat(P::lane(t128, 2)), t144);
-    // constant and copied elements
-    let t155 =
-        P::triple([parameters.mover_mass[0], parameters.mover_mass[1], parameters.mover_mass[2]]);
-    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
-    let t156 = t146 + t155;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t157 = mul_add(t36, P::splat(P::lane(t93, 2)), t147);
-    let t158 = neg_mul_add(t36, P::splat(P::lane(t93, 0)), P::splat(P::lane(t98, 2)));
-    // acceleration of the platform origin relative to the base, less w x v
-    let t159 = mul_add(P::splat(P::lane(t22, 0)), t140, t136) + t148;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t160 = mul_add(t51, t151, mul_add(t44, t133, t39 * t130));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t161 = mul_sub(t37, P::splat(P::lane(t128, 1)), t153);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t162 = mul_add(t62, t124, t39);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t163 = mul_add(P::splat(P::lane(t93, 2)), t133, t154);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t164 = t47 * P::splat(P::lane(t128, 0));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t165 = t32 * P::splat(P::lane(t128, 1));
-    // legs 4, 5, 6: rod's end mass at the Hooke joint
-    let t166 = mul_add(t149, t106 * t149, t87);
-    // second moment of payload and platform-side leg ends
-    let t167 = mul_add(t131, t9 * t9, t121 * (t18 * t18));
-    let t168 = mul_add(t131, t9 * t13, t121 * (t18 * t20));
-    let t169 = P::triple([P::lane(t137, 0), P::lane(t138, 0), P::lane(t139, 0)]);
-    let t170 = P::triple([P::lane(t137, 1), P::lane(t138, 1), P::lane(t139, 1)]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t171 = w(1.0) / t156;
-    // acceleration of the platform origin relative to the base, less w x v
-    let t172 = mul_sub(t122, t152, t142 * t143) + t159;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t173 = mul_add(t40, P::splat(P::lane(t93, 1)), t158);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t174 = mul_add(t63, t124, t44);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t175 = neg_mul_add(t39, t160, t130);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t176 = mul_add(P::splat(P::lane(t93, 1)), t151, t161);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t177 = t36 * P::splat(P::lane(t128, 2));
-    let t178 = mul_sub(t40, P::splat(P::lane(t128, 2)), t164);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t179 = mul_sub(t33, P::splat(P::lane(t128, 0)), t165);
-    // constant and copied elements
-    let t180 =
-        P::triple([parameters.mover_mass[3], parameters.mover_mass[4], parameters.mover_mass[5]]);
-    // second moment of payload and platform-side leg ends
-    let t181 = P::triple([P::lane(t137, 2), P::lane(t138, 2), P::lane(t139, 2)]);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t182 = neg_mul_add(P::splat(P::lane(t93, 0)), t151, t163);
-    // legs 1, 2, 3: actuator length d
-    let t183 = t57 - t81;
-    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
-    let t184 = t166 + t180;
-    // second moment of payload and platform-side leg ends
-    let t185 = t169 + t170 + t181;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t186 = P::splat(base_rotation[0][1]) * t162;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t187 = P::splat(base_rotation[0][1]) * t39;
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t188 = neg_mul_add(t44, t160, t133);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t189 = mul_add(t56, t173, mul_add(t54, t157, t52 * t150));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t190 = mul_sub(t47, P::splat(P::lane(t128, 1)), t177);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t191 = mul_add(t71, t145, t52);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t192 = mul_add(t65, t124, t51);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t193 = P::splat(base_rotation[1][1]) * t162;
-    let t194 = P::splat(base_rotation[2][1]) * t162;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t195 = P::splat(base_rotation[1][1]) * t39;
-    let t196 = P::splat(base_rotation[2][1]) * t39;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t197 = neg_mul_add(P::splat(P::lane(t93, 2)), t130, t176);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t198 = mul_add(P::splat(P::lane(t93, 2)), t157, t178);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t199 = mul_add(P::splat(P::lane(t93, 0)), t130, t179);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t200 = t40 * P::splat(P::lane(t128, 1));
-    // legs 1, 2, 3: rod's inertial coupling between its ends
-    let t201 = neg_mul_add(t120, t129, t97);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t202 = w(1.0) / t184;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t203 = P::splat(P::lane(t172, 1)) + t182;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t204 = mul_add(t39, t183, t21);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t205 = mul_add(P::splat(base_rotation[0][0]), t174, t186);
-    // second moment of payload and platform-side leg ends
-    let t206 = mul_add(t131, t13 * t13, t121 * (t20 * t20));
-    let t207 = P::lane(t168, 1) + P::lane(t168, 0);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t208 = mul_add(P::splat(base_rotation[0][0]), t44, t187);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t209 = mul_add(t72, t145, t54);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t210 = mul_add(P::splat(base_rotation[1][0]), t174, t193);
-    let t211 = mul_add(P::splat(base_rotation[2][0]), t174, t194);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t212 = mul_add(P::splat(base_rotation[1][0]), t44, t195);
-    let t213 = mul_add(P::splat(base_rotation[2][0]), t44, t196);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t214 = neg_mul_add(t52, t189, t150);
-    // legs 1, 2, 3: rate of the offset from the actuator axis
-    let t215 = neg_mul_add(t51, t160, t151);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t216 = mul_add(P::splat(P::lane(t93, 1)), t173, t190);
-    let t217 = mul_sub(t36, P::splat(P::lane(t128, 0)), t200);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t218 = mul_add(t151, t192, mul_add(t133, t174, t130 * t162));
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t219 = t197 + P::splat(P::lane(t172, 0));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t220 = neg_mul_add(P::splat(P::lane(t93, 0)), t173, t198);
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t221 = neg_mul_add(P::splat(P::lane(t93, 1)), t133, t199);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t222 = mul_add(t44, t183, t38);
-    let t223 = mul_add(t51, t183, t46);
-    // legs 4, 5, 6: actuator length d
-    let t224 = t64 - t89;
-    // second moment of payload and platform-side leg ends
-    let t225 = P::triple([P::lane(t185, 1), P::lane(t167, 2), P::lane(t168, 2)]);
-    let t226 = P::triple([c(0.0), P::lane(t167, 1) + P::lane(t167, 0), t207]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t227 = P::splat(P::lane(t116, 0)) * t204;
-    let t228 = P::splat(P::lane(t104, 1)) * t204;
-    let t229 = P::splat(P::lane(t112, 2)) * t204;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t230 = mul_add(P::splat(base_rotation[0][2]), t192, t205);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t231 = P::splat(base_rotation[1][1]) * t191;
-    // second moment of payload and platform-side leg ends
-    let t232 = t225 + t226;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t233 = mul_add(P::splat(base_rotation[0][2]), t51, t208);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t234 = P::splat(base_rotation[1][1]) * t52;
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t235 = neg_mul_add(t54, t189, t157);
+    let t157 = P::triple([P::lane(t96, 2), P::lane(t96, 0), P::lane(t96, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t158 = t34 * P::splat(P::lane(t127, 2));
+    let t159 = mul_sub(t36, P::splat(P::lane(t127, 2)), t147);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t160 = mul_add(t136, t112 * t136, t91);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t161 = mul_add(t37, P::splat(P::lane(t92, 1)), t142);
     // rotation of the platform seen from the base
-    let t236 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t237 = mul_add(t73, t145, t56);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t238 = mul_add(P::splat(base_rotation[1][2]), t192, t210);
-    let t239 = mul_add(P::splat(base_rotation[2][2]), t192, t211);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t240 = t171 * t201;
-    let t241 = mul_add(P::splat(base_rotation[1][2]), t51, t212);
-    let t242 = mul_add(P::splat(base_rotation[2][2]), t51, t213);
+    let t162 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t163 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t164 = mul_add(P::splat(P::lane(t22, 0)), t143, t140) + t148;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t165 = t35 * P::splat(P::lane(t127, 2));
+    let t166 = mul_sub(t37, P::splat(P::lane(t127, 2)), t154);
+    // constant and copied elements
+    let t167 =
+        P::triple([parameters.mover_mass[0], parameters.mover_mass[2], parameters.mover_mass[4]]);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t168 = mul_add(t56, t152, mul_add(t50, t138, t45 * t130));
     // acceleration per platform coordinate of points of the platform
-    let t243 = mul_sub(t83, t236, t14 * t119);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t244 = neg_mul_add(P::splat(P::lane(t93, 2)), t150, t216);
-    let t245 = mul_add(P::splat(P::lane(t93, 0)), t150, t217);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t246 = mul_add(t215, t215, mul_add(t188, t188, t175 * t175));
-    // legs 4, 5, 6: rod's inertial coupling between its ends
-    let t247 = neg_mul_add(t110, t149, t87);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t248 = t171 * (t201 * t201);
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t249 = t160 - t218;
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t250 = P::splat(P::lane(t172, 1)) + t220;
-    // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t251 = P::splat(P::lane(t172, 2)) + t221;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t252 = mul_add(P::splat(P::lane(t112, 0)), t223, P::splat(P::lane(t126, 0)));
-    let t253 = t39 * P::splat(P::lane(t75, 2));
-    let t254 = mul_add(P::splat(P::lane(t116, 1)), t223, P::splat(P::lane(t126, 1)));
-    let t255 = t51 * P::splat(P::lane(t75, 0));
-    let t256 = neg_mul_add(P::splat(P::lane(t104, 2)), t223, P::splat(P::lane(t126, 2)));
-    let t257 = t44 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t258 = mul_add(t52, t224, t45);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t259 = P::splat(base_rotation[0][1]) * t191;
-    let t260 = mul_add(P::splat(base_rotation[1][0]), t209, t231);
-    let t261 = P::splat(base_rotation[2][1]) * t191;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t262 = P::splat(base_rotation[0][1]) * t52;
-    let t263 = mul_add(P::splat(base_rotation[1][0]), t54, t234);
-    let t264 = P::splat(base_rotation[2][1]) * t52;
-    // rotation of the platform seen from the base
-    let t265 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    let t266 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t267 = P::splat(platform_rotation[2][1]) * t9;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t268 = neg_mul_add(t233, t240, t230);
-    // legs 4, 5, 6: rate of the offset from the actuator axis
-    let t269 = neg_mul_add(t56, t189, t173);
-    // acceleration per platform coordinate of points of the platform
-    let t270 = mul_sub(t83, t265, t15 * t119);
-    let t271 = mul_sub(t83, t266, t17 * t119);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t272 = P::splat(platform_rotation[0][1]) * t9;
-    let t273 = P::splat(platform_rotation[1][1]) * t9;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t274 = t233 * t248;
-    let t275 = neg_mul_add(t240, t241, t238);
-    let t276 = neg_mul_add(t240, t242, t239);
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t277 = mul_add(t173, t237, mul_add(t157, t209, t150 * t191));
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t278 = P::splat(P::lane(t172, 0)) + t244;
-    let t279 = neg_mul_add(P::splat(P::lane(t93, 1)), t157, t245);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t280 = mul_add(t192, t251, mul_add(t174, t219, t162 * t203));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t281 = mul_sub(t51, P::splat(P::lane(t75, 1)), t253);
-    let t282 = mul_sub(t44, P::splat(P::lane(t75, 2)), t255);
-    let t283 = mul_sub(t39, P::splat(P::lane(t75, 0)), t257);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t284 = mul_add(t54, t224, t50);
-    let t285 = mul_add(t56, t224, t55);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t286 = mul_add(P::splat(base_rotation[0][0]), t209, t259);
-    let t287 = mul_add(P::splat(base_rotation[2][0]), t209, t261);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t288 = mul_add(P::splat(base_rotation[0][0]), t54, t262);
-    let t289 = mul_add(P::splat(base_rotation[2][0]), t54, t264);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t290 = t241 * t248;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t291 = t252 - mul_sub(P::splat(P::lane(t104, 0)), t222, t227);
-    let t292 = t218 * w(2.0);
-    let t293 = mul_sub(P::splat(P::lane(t112, 1)), t222, t228) + t254;
-    let t294 = mul_add(P::splat(P::lane(t116, 2)), t222, t229) + t256;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t295 = P::splat(P::lane(t116, 0)) * t258;
-    let t296 = P::splat(P::lane(t104, 1)) * t258;
-    let t297 = P::splat(P::lane(t112, 2)) * t258;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t298 = mul_add(P::splat(platform_rotation[2][0]), t12, t267);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t299 = mul_add(P::splat(base_rotation[1][2]), t237, t260);
+    let t169 = mul_sub(t81, t162, t15 * t117);
+    let t170 = mul_sub(t81, t163, t17 * t117);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t171 = mul_sub(t39, P::splat(P::lane(t127, 1)), t158);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t172 = mul_add(t65, t121, t45);
+    // legs 1, 3, 5: mass that slides along the actuator axis: mover and rod's end
+    let t173 = t155 + t167;
+    // constant and copied elements
+    let t174 =
+        P::triple([parameters.mover_mass[1], parameters.mover_mass[3], parameters.mover_mass[5]]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t175 = mul_add(P::splat(P::lane(t92, 2)), t138, t159);
+    let t176 = t36 * P::splat(P::lane(t127, 1));
+    // legs 2, 4, 6: mass that slides along the actuator axis: mover and rod's end
+    let t177 = t160 + t174;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t178 = mul_add(t57, t161, mul_add(t53, t141, t48 * t134));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t179 = mul_sub(t119, t157, t145 * t146) + t164;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t180 = mul_sub(t41, P::splat(P::lane(t127, 1)), t165);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t181 = mul_add(t69, t131, t48);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t182 = mul_add(P::splat(P::lane(t92, 2)), t141, t166);
+    let t183 = t37 * P::splat(P::lane(t127, 1));
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t184 = mul_add(t66, t121, t50);
     // second moment of payload and platform-side leg ends
-    let t300 = P::triple([P::lane(t185, 2), P::lane(t232, 2), P::lane(t206, 2)]);
-    let t301 = P::triple([c(0.0), c(0.0), P::lane(t206, 1) + P::lane(t206, 0)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t302 = mul_add(P::splat(base_rotation[1][2]), t56, t263);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t303 = mul_add(P::splat(platform_rotation[0][0]), t12, t272);
-    let t304 = mul_add(P::splat(platform_rotation[1][0]), t12, t273);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t305 = t156 * t268;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t306 = t202 * t247;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t307 = mul_add(t269, t269, mul_add(t235, t235, t214 * t214));
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t308 = t202 * (t247 * t247);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t309 = t156 * t275;
-    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t310 = t189 - t277;
+    let t185 = mul_add(t137, t12 * t12, t129 * (t9 * t9));
+    let t186 = mul_add(t137, t12 * t20, t129 * (t9 * t19));
+    let t187 = P::triple([P::lane(t149, 0), P::lane(t150, 0), P::lane(t151, 0)]);
+    let t188 = P::triple([P::lane(t149, 1), P::lane(t150, 1), P::lane(t151, 1)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t189 = w(1.0) / t173;
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t190 = neg_mul_add(t45, t168, t130);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t191 = mul_add(P::splat(P::lane(t92, 1)), t152, t171);
+    let t192 = mul_sub(t34, P::splat(P::lane(t127, 0)), t176);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t193 = w(1.0) / t177;
     // angular velocity of the platform
-    let t311 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t194 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t312 = P::triple([P::lane(t243, 2), P::lane(t243, 0), P::lane(t243, 1)]);
-    // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t313 = P::splat(P::lane(t172, 2)) + t279;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t314 = neg_mul_add(t124, mul_add(t249, t249, t246), t280);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t315 = mul_add(P::splat(P::lane(t112, 0)), t285, P::splat(P::lane(t126, 0)));
-    let t316 = t52 * P::splat(P::lane(t75, 2));
-    let t317 = mul_add(P::splat(P::lane(t116, 1)), t285, P::splat(P::lane(t126, 1)));
-    let t318 = t56 * P::splat(P::lane(t75, 0));
-    let t319 = neg_mul_add(P::splat(P::lane(t104, 2)), t285, P::splat(P::lane(t126, 2)));
-    let t320 = t54 * P::splat(P::lane(t75, 1));
-    // legs 4, 5, 6: gradient of the actuator length
-    let t321 = mul_add(P::splat(base_rotation[0][2]), t237, t286);
-    let t322 = mul_add(P::splat(base_rotation[2][2]), t237, t287);
+    let t195 = P::triple([P::lane(t156, 2), P::lane(t156, 0), P::lane(t156, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t196 = neg_mul_add(P::splat(P::lane(t92, 0)), t152, t175);
+    // legs 2, 4, 6: actuator length d
+    let t197 = t58 - t82;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t198 = mul_add(t70, t131, t53);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t199 = neg_mul_add(t48, t178, t134);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t200 = mul_add(P::splat(P::lane(t92, 1)), t161, t180);
+    let t201 = mul_sub(t35, P::splat(P::lane(t127, 0)), t183);
     // second moment of payload and platform-side leg ends
-    let t323 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t324 = mul_add(P::splat(base_rotation[0][2]), t56, t288);
-    let t325 = mul_add(P::splat(base_rotation[2][2]), t56, t289);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t326 = P::splat(platform_rotation[0][1]) * t18;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t327 = mul_add(P::splat(platform_rotation[2][2]), t13, t298);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t328 = neg_mul_add(t302, t306, t299);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t329 = mul_sub(t276, t305, t242 * t274);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t330 = mul_add(P::splat(platform_rotation[0][2]), t13, t303);
-    let t331 = mul_add(P::splat(platform_rotation[1][2]), t13, t304);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t332 = P::splat(platform_rotation[1][1]) * t18;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t333 = t302 * t308;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t334 = mul_sub(t276, t309, t242 * t290);
-    let t335 = mul_sub(t276, t156 * t276, t242 * (t242 * t248));
+    let t202 = P::triple([P::lane(t149, 2), P::lane(t150, 2), P::lane(t151, 2)]);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t203 = neg_mul_add(t50, t168, t138);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t204 = neg_mul_add(P::splat(P::lane(t92, 0)), t161, t182);
+    // legs 1, 3, 5: actuator length d
+    let t205 = t62 - t86;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t206 = mul_add(t67, t121, t56);
+    // second moment of payload and platform-side leg ends
+    let t207 = t187 + t188 + t202;
     // acceleration per platform coordinate of points of the platform
-    let t336 = P::triple([P::lane(t270, 2), P::lane(t270, 0), P::lane(t270, 1)]);
-    let t337 = P::triple([P::lane(t271, 2), P::lane(t271, 0), P::lane(t271, 1)]);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t338 = mul_add(t237, t313, mul_add(t209, t278, t191 * t250));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t339 = mul_sub(t56, P::splat(P::lane(t75, 1)), t316);
-    let t340 = mul_sub(t54, P::splat(P::lane(t75, 2)), t318);
-    let t341 = mul_sub(t52, P::splat(P::lane(t75, 0)), t320);
+    let t208 = P::triple([P::lane(t169, 2), P::lane(t169, 0), P::lane(t169, 1)]);
+    let t209 = P::triple([P::lane(t170, 2), P::lane(t170, 0), P::lane(t170, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t210 = neg_mul_add(P::splat(P::lane(t92, 2)), t130, t191);
+    let t211 = mul_add(P::splat(P::lane(t92, 0)), t130, t192);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t212 = P::splat(base_rotation[0][1]) * t181;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t213 = P::splat(base_rotation[0][1]) * t48;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t214 = neg_mul_add(t53, t178, t141);
+    // acceleration per platform coordinate of points of the platform
+    let t215 = mul_sub(t117, t156, t194 * t195);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t216 = P::splat(P::lane(t179, 1)) + t196;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t217 = mul_add(t45, t197, t21);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t218 = mul_add(t71, t131, t57);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t219 = P::splat(base_rotation[0][1]) * t172;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t220 = P::splat(base_rotation[1][1]) * t181;
+    let t221 = P::splat(base_rotation[2][1]) * t181;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t222 = P::splat(base_rotation[0][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t223 = P::splat(base_rotation[1][1]) * t48;
+    let t224 = P::splat(base_rotation[2][1]) * t48;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t225 = neg_mul_add(P::splat(P::lane(t92, 2)), t134, t200);
+    let t226 = mul_add(P::splat(P::lane(t92, 0)), t134, t201);
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t227 = neg_mul_add(t128, t133, t99);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t228 = neg_mul_add(t56, t168, t152);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t229 = P::splat(P::lane(t179, 1)) + t204;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t230 = mul_add(t48, t205, t40);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t231 = mul_add(P::splat(base_rotation[0][0]), t198, t212);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t232 = neg_mul_add(t116, t136, t91);
     // second moment of payload and platform-side leg ends
-    let t342 = t323 + parameters.payload_inertia[2][2];
+    let t233 = mul_add(t137, t20 * t20, t129 * (t19 * t19));
+    let t234 = P::lane(t186, 1) + P::lane(t186, 0);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t235 = mul_add(P::splat(base_rotation[0][0]), t53, t213);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t236 = mul_add(t152, t206, mul_add(t138, t184, t130 * t172));
+    // acceleration per platform coordinate of points of the platform
+    let t237 = mul_sub(t117, t169, t194 * t208);
+    let t238 = mul_sub(t117, t170, t194 * t209);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t239 = t210 + P::splat(P::lane(t179, 0));
+    let t240 = neg_mul_add(P::splat(P::lane(t92, 1)), t138, t211);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t241 = mul_add(t50, t197, t43);
+    let t242 = mul_add(t56, t197, t51);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t243 = mul_add(P::splat(base_rotation[0][0]), t184, t219);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t244 = mul_add(P::splat(base_rotation[1][0]), t198, t220);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t245 = P::splat(base_rotation[1][1]) * t172;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t246 = mul_add(P::splat(base_rotation[2][0]), t198, t221);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t247 = P::splat(base_rotation[2][1]) * t172;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t248 = mul_add(P::splat(base_rotation[0][0]), t50, t222);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t249 = mul_add(P::splat(base_rotation[1][0]), t53, t223);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t250 = P::splat(base_rotation[1][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t251 = mul_add(P::splat(base_rotation[2][0]), t53, t224);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t252 = P::splat(base_rotation[2][1]) * t45;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t253 = neg_mul_add(t57, t178, t161);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t254 = P::splat(P::lane(t104, 1)) * t217;
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t255 = mul_add(t161, t218, mul_add(t141, t198, t134 * t181));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t256 = P::splat(P::lane(t179, 0)) + t225;
+    let t257 = neg_mul_add(P::splat(P::lane(t92, 1)), t141, t226);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t258 = mul_add(t53, t205, t47);
+    let t259 = mul_add(t57, t205, t54);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t260 = P::splat(P::lane(t115, 0)) * t217;
+    let t261 = P::splat(P::lane(t109, 2)) * t217;
+    // second moment of payload and platform-side leg ends
+    let t262 = P::triple([P::lane(t207, 1), P::lane(t185, 2), P::lane(t186, 2)]);
+    let t263 = P::triple([c(0.0), P::lane(t185, 1) + P::lane(t185, 0), t234]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t264 = mul_add(t228, t228, mul_add(t203, t203, t190 * t190));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t265 = P::splat(P::lane(t115, 0)) * t230;
+    let t266 = P::splat(P::lane(t104, 1)) * t230;
+    let t267 = P::splat(P::lane(t109, 2)) * t230;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t268 = mul_add(P::splat(base_rotation[0][2]), t218, t231);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t269 = mul_add(P::splat(base_rotation[1][0]), t184, t245);
+    let t270 = mul_add(P::splat(base_rotation[2][0]), t184, t247);
+    // second moment of payload and platform-side leg ends
+    let t271 = t262 + t263;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t272 = mul_add(P::splat(base_rotation[0][2]), t57, t235);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t273 = mul_add(P::splat(base_rotation[1][0]), t50, t250);
+    let t274 = mul_add(P::splat(base_rotation[2][0]), t50, t252);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t275 = t168 - t236;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t276 = P::splat(P::lane(t179, 2)) + t240;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t277 = mul_add(P::splat(P::lane(t115, 1)), t242, P::splat(P::lane(t125, 1)));
+    let t278 = t56 * P::splat(P::lane(t73, 0));
+    // legs 2, 4, 6: gradient of the actuator length
+    let t279 = mul_add(P::splat(base_rotation[0][2]), t206, t243);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t280 = mul_add(P::splat(base_rotation[1][2]), t218, t244);
+    let t281 = mul_add(P::splat(base_rotation[2][2]), t218, t246);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t282 = t189 * t227;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t283 = mul_add(P::splat(base_rotation[0][2]), t56, t248);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t284 = mul_add(P::splat(base_rotation[1][2]), t57, t249);
+    let t285 = mul_add(P::splat(base_rotation[2][2]), t57, t251);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t286 = mul_add(t253, t253, mul_add(t214, t214, t199 * t199));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t287 = mul_add(P::splat(P::lane(t109, 0)), t242, P::splat(P::lane(t125, 0)));
+    let t288 = t45 * P::splat(P::lane(t73, 2));
+    let t289 = neg_mul_add(P::splat(P::lane(t104, 2)), t242, P::splat(P::lane(t125, 2)));
+    let t290 = t50 * P::splat(P::lane(t73, 1));
+    let t291 = t9 * P::splat(P::lane(t215, 1));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t292 = t189 * (t227 * t227);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t293 = t193 * t232;
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t294 = t178 - t255;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t295 = P::splat(P::lane(t179, 2)) + t257;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t296 = mul_add(P::splat(P::lane(t109, 0)), t259, P::splat(P::lane(t125, 0)));
+    let t297 = t48 * P::splat(P::lane(t73, 2));
+    let t298 = mul_add(P::splat(P::lane(t115, 1)), t259, P::splat(P::lane(t125, 1)));
+    let t299 = t57 * P::splat(P::lane(t73, 0));
+    let t300 = neg_mul_add(P::splat(P::lane(t104, 2)), t259, P::splat(P::lane(t125, 2)));
+    let t301 = t53 * P::splat(P::lane(t73, 1));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t302 = t193 * (t232 * t232);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t303 = mul_add(t206, t276, mul_add(t184, t239, t172 * t216));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t304 = mul_sub(t50, P::splat(P::lane(t73, 2)), t278);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t305 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t306 = mul_add(P::splat(base_rotation[1][2]), t206, t269);
+    let t307 = mul_add(P::splat(base_rotation[2][2]), t206, t270);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t308 = neg_mul_add(t272, t282, t268);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t309 = mul_add(P::splat(base_rotation[1][2]), t56, t273);
+    let t310 = mul_add(P::splat(base_rotation[2][2]), t56, t274);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t311 = t12 * P::splat(P::lane(t215, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t312 = t236 * w(2.0);
+    let t313 = mul_sub(t56, P::splat(P::lane(t73, 1)), t288);
+    let t314 = mul_sub(P::splat(P::lane(t109, 1)), t241, t254) + t277;
+    let t315 = mul_sub(t45, P::splat(P::lane(t73, 0)), t290);
+    let t316 = t9 * P::splat(P::lane(t215, 0));
+    let t317 = neg_mul_add(t19, P::splat(P::lane(t238, 1)), P::splat(P::lane(t126, 1)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t318 = P::splat(platform_rotation[0][1]) * t12;
+    let t319 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t320 = t272 * t292;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t321 = neg_mul_add(t283, t293, t279);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t322 = neg_mul_add(t282, t284, t280);
+    let t323 = neg_mul_add(t282, t285, t281);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t324 = mul_add(t218, t295, mul_add(t198, t256, t181 * t229));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t325 = mul_sub(t57, P::splat(P::lane(t73, 1)), t297);
+    let t326 = mul_sub(t53, P::splat(P::lane(t73, 2)), t299);
+    let t327 = mul_sub(t48, P::splat(P::lane(t73, 0)), t301);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t328 = t287 - mul_sub(P::splat(P::lane(t104, 0)), t241, t260);
+    let t329 = mul_add(P::splat(P::lane(t115, 2)), t241, t261) + t289;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t330 = t283 * t302;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t331 = t284 * t292;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t332 = t296 - mul_sub(P::splat(P::lane(t104, 0)), t258, t265);
+    let t333 = t255 * w(2.0);
+    let t334 = mul_sub(P::splat(P::lane(t109, 1)), t258, t266) + t298;
+    let t335 = mul_add(P::splat(P::lane(t115, 2)), t258, t267) + t300;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t336 = mul_add(P::splat(platform_rotation[2][0]), t18, t305);
+    // second moment of payload and platform-side leg ends
+    let t337 = P::triple([P::lane(t207, 2), P::lane(t271, 2), P::lane(t233, 2)]);
+    let t338 = P::triple([c(0.0), c(0.0), P::lane(t233, 1) + P::lane(t233, 0)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t339 = neg_mul_add(t121, mul_add(t275, t275, t264), t303);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t340 = t12 * P::splat(P::lane(t215, 0));
+    let t341 = neg_mul_add(t20, P::splat(P::lane(t238, 1)), P::splat(P::lane(t126, 1)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t342 = neg_mul_add(t19, P::splat(P::lane(t238, 0)), P::splat(P::lane(t126, 0)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t343 = mul_add(P::splat(platform_rotation[0][0]), t18, t318);
+    let t344 = mul_add(P::splat(platform_rotation[1][0]), t18, t319);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t345 = t173 * t308;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t346 = neg_mul_add(t293, t309, t306);
+    let t347 = neg_mul_add(t293, t310, t307);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t348 = t9 * P::splat(P::lane(t215, 2));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t349 = t177 * t321;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t350 = t173 * t322;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t351 = neg_mul_add(t131, mul_add(t294, t294, t286), t324);
+    // second moment of payload and platform-side leg ends
+    let t352 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t353 = neg_mul_add(t20, P::splat(P::lane(t238, 0)), P::splat(P::lane(t126, 0)));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t354 = P::splat(platform_rotation[0][1]) * t9;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t355 = mul_add(P::splat(platform_rotation[2][2]), t20, t336);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t356 = mul_sub(t323, t345, t285 * t320);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t357 = t12 * P::splat(P::lane(t215, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t358 = neg_mul_add(t45, t339, mul_add(t304, t312, t314));
+    let t359 = t342 - mul_add(t13, P::splat(P::lane(t237, 0)), t316);
+    let t360 = t45 * (t317 - mul_add(t13, P::splat(P::lane(t237, 1)), t291));
+    let t361 = neg_mul_add(t19, P::splat(P::lane(t238, 2)), P::splat(P::lane(t126, 2)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t362 = mul_add(P::splat(platform_rotation[0][2]), t20, t343);
+    let t363 = mul_add(P::splat(platform_rotation[1][2]), t20, t344);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t364 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t365 = mul_sub(t308, t345, t272 * t320);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t366 = mul_sub(t321, t349, t283 * t330);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t367 = mul_sub(t322, t345, t284 * t320);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t368 = mul_sub(t346, t349, t309 * t330);
+    let t369 = mul_sub(t347, t349, t310 * t330);
+    let t370 = t302 * t309;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t371 = mul_sub(t323, t350, t285 * t331);
+    let t372 = mul_sub(t323, t173 * t323, t285 * (t285 * t292));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t373 = neg_mul_add(t50, t339, mul_add(t312, t313, t328));
+    let t374 = neg_mul_add(t56, t339, mul_add(t312, t315, t329));
+    // second moment of payload and platform-side leg ends
+    let t375 = t352 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t343 =
+    let t376 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t344 =
+    let t377 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // acceleration per platform coordinate of points of the platform
-    let t345 = mul_sub(t119, t243, t311 * t312);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t346 = neg_mul_add(t44, t314, mul_add(t281, t292, t291));
-    let t347 = neg_mul_add(t39, t314, mul_add(t282, t292, t293));
-    let t348 = neg_mul_add(t51, t314, mul_add(t283, t292, t294));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t349 = t315 - mul_sub(P::splat(P::lane(t104, 0)), t284, t295);
-    let t350 = t277 * w(2.0);
-    let t351 = mul_sub(P::splat(P::lane(t112, 1)), t284, t296) + t317;
-    let t352 = mul_add(P::splat(P::lane(t116, 2)), t284, t297) + t319;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t353 = mul_add(P::splat(platform_rotation[0][0]), t19, t326);
-    let t354 = P::splat(platform_rotation[2][1]) * t18;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t355 = neg_mul_add(t306, t324, t321);
-    let t356 = neg_mul_add(t306, t325, t322);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t357 = mul_add(P::splat(platform_rotation[1][0]), t19, t332);
-    // second moment of payload and platform-side leg ends
-    let t358 = P::triple([P::lane(t185, 0), P::lane(t232, 1), P::lane(t300 + t301, 2)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t359 = t308 * t324;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t360 = mul_sub(t275, t309, t241 * t290);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t361 = t184 * t328;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t378 = neg_mul_add(t53, t351, mul_add(t325, t333, t332));
+    let t379 = neg_mul_add(t48, t351, mul_add(t326, t333, t334));
+    let t380 = neg_mul_add(t57, t351, mul_add(t327, t333, t335));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t381 = mul_add(P::splat(platform_rotation[0][0]), t13, t354);
+    let t382 = P::splat(platform_rotation[2][1]) * t9;
     // first moment of payload and platform-side leg ends
-    let t362 = mul_add(t12, t131, t19 * t121);
-    let t363 = mul_add(t9, t131, t18 * t121);
-    let t364 = mul_add(t13, t131, t20 * t121);
-    // second moment of payload and platform-side leg ends
-    let t365 = P::triple([P::lane(t185, 1), P::lane(t232, 2), P::lane(t185, 2)]);
-    // mass matrix of the legs
-    let t366 = t330 * t334;
-    // acceleration per platform coordinate of points of the platform
-    let t367 = mul_sub(t119, t270, t311 * t336);
-    let t368 = mul_sub(t119, t271, t311 * t337);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t369 = neg_mul_add(t145, mul_add(t310, t310, t307), t338);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t370 = mul_add(P::splat(platform_rotation[2][0]), t19, t354);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t371 = mul_sub(t275, t305, t241 * t274);
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t372 = t201 * t346;
-    let t373 = t201 * t347;
-    let t374 = t201 * t348;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t375 = mul_add(P::splat(platform_rotation[0][2]), t20, t353);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t376 = t184 * t355;
-    let t377 = mul_sub(t356, t361, t325 * t333);
-    // mass matrix of the legs
-    let t378 = mul_sub(t330, t335, t327 * t329);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t379 = mul_add(P::splat(platform_rotation[1][2]), t20, t357);
+    let t383 = mul_add(t18, t137, t13 * t129);
+    let t384 = mul_add(t12, t137, t9 * t129);
+    let t385 = mul_add(t20, t137, t19 * t129);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t386 = t353 - mul_add(t18, P::splat(P::lane(t237, 0)), t340);
+    let t387 = t48 * (t341 - mul_add(t18, P::splat(P::lane(t237, 1)), t311));
+    let t388 = neg_mul_add(t20, P::splat(P::lane(t238, 2)), P::splat(P::lane(t126, 2)));
     // constant and copied elements
-    let t380 =
+    let t389 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t390 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t391 = mul_add(P::splat(platform_rotation[1][0]), t13, t364);
+    // second moment of payload and platform-side leg ends
+    let t392 = P::triple([P::lane(t207, 0), P::lane(t271, 1), P::lane(t337 + t338, 2)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t393 = mul_sub(t322, t350, t284 * t331);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t394 = t177 * t346;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t395 = t361 - mul_add(t13, P::splat(P::lane(t237, 2)), t348);
+    // second moment of payload and platform-side leg ends
+    let t396 = P::triple([P::lane(t207, 1), P::lane(t271, 2), P::lane(t207, 2)]);
+    // mass matrix of the legs
+    let t397 = t365 + t366;
+    let t398 = t367 + t368;
+    let t399 = t356 + t369;
+    let t400 = t362 * t371;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t401 = t232 * t373;
+    let t402 = t232 * t358;
+    let t403 = t232 * t374;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t404 = mul_add(P::splat(platform_rotation[2][0]), t13, t382);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t405 = t227 * t378;
+    let t406 = t227 * t379;
+    let t407 = t227 * t380;
+    // constant and copied elements
+    let t408 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t409 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t410 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t411 = mul_add(P::splat(platform_rotation[0][2]), t19, t381);
+    // mass of payload and platform-side leg ends
+    let t412 = t129 + t137;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t413 = mul_sub(t347, t394, t310 * t370);
+    // mass matrix of the legs
+    let t414 = mul_sub(t362, t372, t355 * t356);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t415 = t388 - mul_add(t18, P::splat(P::lane(t237, 2)), t357);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t416 = mul_add(t56, t395, mul_add(t50, t359, t360));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t417 = mul_add(t197 - t389, t410, t236 * t390);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t418 = mul_add(P::splat(platform_rotation[1][2]), t19, t391);
+    // constant and copied elements
+    let t419 =
         P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t381 =
+    let t420 =
         P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t382 = mul_sub(t328, t361, t302 * t333);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t421 = mul_sub(t346, t394, t309 * t370);
     // mass matrix of the legs
-    let t383 = mul_sub(t329, t331, t366);
-    let t384 = mul_sub(t327, t334, t331 * t335);
+    let t422 = mul_sub(t356, t363, t400);
+    let t423 = mul_sub(t355, t371, t363 * t372);
+    // inertia force less weight, without the actuators' own shares
+    let t424 = mul_add(t227, t378, t401);
+    let t425 = mul_add(t227, t379, t402);
+    let t426 = mul_add(t227, t380, t403);
     // second moment of payload and platform-side leg ends
-    let t385 = mul_add(P::splat(t342), w(0.5), t358) - t381;
+    let t427 = mul_add(P::splat(t375), w(0.5), t392) - t420;
     // constant and copied elements
-    let t386 =
+    let t428 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t387 = mul_sub(t268, t305, t233 * t274);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t388 = neg_mul_add(t54, t369, mul_add(t339, t350, t349));
-    let t389 = neg_mul_add(t52, t369, mul_add(t340, t350, t351));
-    let t390 = neg_mul_add(t56, t369, mul_add(t341, t350, t352));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t391 = mul_add(P::splat(platform_rotation[2][2]), t20, t370);
+    let t429 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t430 = mul_add(P::splat(platform_rotation[2][2]), t19, t404);
     // second moment of payload and platform-side leg ends
-    let t392 = mul_add(t343 * t344, P::splat(parameters.payload_mass), t365) - t386;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t393 = mul_sub(t328, t376, t302 * t359);
+    let t431 = mul_add(t376 * t377, P::splat(parameters.payload_mass), t396) - t428;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t432 = mul_sub(t347, t177 * t347, t310 * (t302 * t310));
     // mass matrix of the legs
-    let t394 = mul_sub(t327, t371, t366);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t395 = t18 * P::splat(P::lane(t345, 1));
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t396 = mul_sub(t356, t376, t325 * t359);
+    let t433 = mul_sub(t355, t367, t400);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t434 = mul_add(t57, t415, mul_add(t53, t386, t387));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t435 = mul_add(t205 - t408, t429, t255 * t409);
+    // first moment of payload and platform-side leg ends
+    let t436 = P::triple([P::lane(t383, 0), P::lane(t384, 0), P::lane(t385, 0)]);
+    let t437 = P::triple([P::lane(t383, 1), P::lane(t384, 1), P::lane(t385, 1)]);
     // mass matrix of the legs
-    let t397 = t375 * t377;
-    let t398 = mul_sub(t327, t360, t331 * t334);
-    let t399 = mul_sub(t331, t371, t330 * t360);
+    let t438 = t411 * t413;
+    let t439 = mul_sub(t355, t393, t363 * t371);
+    let t440 = mul_sub(t363, t367, t362 * t393);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t441 = mul_add(t56, t374, mul_add(t50, t373, t45 * t358));
+    let t442 = mul_add(t315, t315, mul_add(t313, t313, t304 * t304));
     // second moment of payload and platform-side leg ends
-    let t400 = mul_add(P::splat(parameters.payload_mass), t380 * t380, t385);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t401 = mul_sub(t356, t184 * t356, t325 * (t308 * t325));
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t402 = mul_sub(t33, t374, t37 * t373);
-    let t403 = mul_sub(t37, t372, t32 * t374);
-    let t404 = mul_sub(t32, t373, t33 * t372);
+    let t443 = mul_add(P::splat(parameters.payload_mass), t419 * t419, t427);
+    // mass matrix of the legs
+    let t444 = P::triple([P::lane(t397, 0), P::lane(t398, 0), P::lane(t399, 0)]);
+    let t445 = P::triple([P::lane(t397, 1), P::lane(t398, 1), P::lane(t399, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t446 = mul_sub(t35, t407, t41 * t406);
+    let t447 = mul_sub(t41, t405, t37 * t407);
+    let t448 = mul_sub(t37, t406, t35 * t405);
+    // mass matrix of the legs
+    let t449 = t393 + t421;
+    let t450 = t371 + t413;
     // first moment of payload and platform-side leg ends
-    let t405 = P::triple([P::lane(t362, 0), P::lane(t363, 0), P::lane(t364, 0)]);
-    let t406 = P::triple([P::lane(t362, 1), P::lane(t363, 1), P::lane(t364, 1)]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t407 = t9 * P::splat(P::lane(t345, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t408 = t18 * P::splat(P::lane(t345, 0));
-    let t409 = neg_mul_add(t20, P::splat(P::lane(t368, 1)), P::splat(P::lane(t127, 1)));
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t410 = t247 * t388;
-    let t411 = t247 * t389;
-    let t412 = t247 * t390;
+    let t451 = P::triple([P::lane(t383, 2), P::lane(t384, 2), P::lane(t385, 2)]);
     // mass matrix of the legs
-    let t413 = mul_sub(t391, t393, t397);
-    let t414 = mul_sub(t382, t391, t377 * t379);
-    let t415 = mul_sub(t379, t393, t375 * t382);
-    // first moments by platform coordinate of the payload's inertia force
-    let t416 = t345 * P::splat(P::lane(t392, 0));
-    // first moment of payload and platform-side leg ends
-    let t417 = P::triple([P::lane(t362, 2), P::lane(t363, 2), P::lane(t364, 2)]);
-    // mass matrix of the legs
-    let t418 = mul_sub(t329, t330, t327 * t387);
-    let t419 = mul_sub(t331, t387, t330 * t371);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t420 = t9 * P::splat(P::lane(t345, 0));
-    let t421 = neg_mul_add(t13, P::splat(P::lane(t368, 1)), P::splat(P::lane(t127, 1)));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t422 = neg_mul_add(t20, P::splat(P::lane(t368, 0)), P::splat(P::lane(t127, 0)));
-    let t423 = t18 * P::splat(P::lane(t345, 2));
-    // mass matrix of the legs
-    let t424 = mul_add(t391, t413, mul_add(t327, t394, t331 * t378));
-    let t425 = mul_sub(t375, t401, t391 * t396);
-    // first moments by platform coordinate of the payload's inertia force
-    let t426 = mul_add(t367, P::splat(P::lane(t400, 0)), t416);
-    // mass matrix of the legs
-    let t427 = mul_sub(t379, t396, t397);
-    let t428 = mul_add(t391, t414, mul_sub(t327, t398, t331 * t384));
-    let t429 = mul_sub(t377, t391, t379 * t401);
-    let t430 = mul_add(t391, t415, mul_sub(t327, t399, t331 * t383));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t431 = neg_mul_add(t13, P::splat(P::lane(t368, 0)), P::splat(P::lane(t127, 0)));
-    // first moment of payload and platform-side leg ends
-    let t432 = mul_add(P::splat(parameters.payload_mass), t380, t405 + t406 + t417);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t433 = mul_sub(t355, t376, t324 * t359);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t434 = t9 * P::splat(P::lane(t345, 2));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t435 = t422 - mul_add(t19, P::splat(P::lane(t367, 0)), t408);
-    let t436 = t52 * (t409 - mul_add(t19, P::splat(P::lane(t367, 1)), t395));
-    let t437 = neg_mul_add(t20, P::splat(P::lane(t368, 2)), P::splat(P::lane(t127, 2)));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t438 = neg_mul_add(t47, t411, mul_add(t36, t412, t402));
-    let t439 = neg_mul_add(t40, t412, mul_add(t47, t410, t403));
-    let t440 = neg_mul_add(t36, t410, mul_add(t40, t411, t404));
-    // mass matrix of the legs
-    let t441 = mul_add(t379, t425, t424);
-    // first moments by platform coordinate of the payload's inertia force
-    let t442 = mul_add(t368, P::splat(P::lane(t392, 2)), t426);
-    // mass matrix of the legs
-    let t443 = neg_mul_add(t379, t429, t428);
-    let t444 = neg_mul_add(t379, t427, t430);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t445 = t431 - mul_add(t12, P::splat(P::lane(t367, 0)), t420);
-    let t446 = t39 * (t421 - mul_add(t12, P::splat(P::lane(t367, 1)), t407));
-    let t447 = neg_mul_add(t13, P::splat(P::lane(t368, 2)), P::splat(P::lane(t127, 2)));
-    // constant and copied elements
-    let t448 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t449 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t450 = t345 * P::splat(P::lane(t400, 1));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t451 = t437 - mul_add(t19, P::splat(P::lane(t367, 2)), t423);
-    // mass matrix of the legs
-    let t452 = t387 + t433;
-    let t453 = t371 + t393;
-    let t454 = t329 + t396;
+    let t452 = mul_sub(t368, t430, t438);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t453 = mul_add(t57, t380, mul_add(t53, t378, t48 * t379));
+    let t454 = mul_add(t327, t327, mul_add(t325, t325, t326 * t326));
     // constant and copied elements
     let t455 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t456 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t457 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
+        P::triple([parameters.mover_offset[1], parameters.mover_offset[3], parameters.mover_offset[5]]);
+    // mass matrix of the legs
+    let t456 = mul_sub(t421, t430, t413 * t418);
+    let t457 = mul_sub(t368, t418, t411 * t421);
+    let t458 = P::triple([P::lane(t397, 2), P::lane(t398, 2), P::lane(t399, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t459 = mul_add(t442, t455, t441);
     // first moments by platform coordinate of the payload's inertia force
-    let t458 = mul_sub(t127, P::splat(P::lane(t432, 0)), t442);
-    let t459 = mul_add(t367, P::splat(P::lane(t392, 0)), t450);
+    let t460 = t215 * P::splat(P::lane(t431, 0));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t461 = mul_add(t160, t441, mul_add(t232, t416, t417));
     // mass matrix of the legs
-    let t460 = mul_add(t391, t393, mul_sub(t327, t371, t329 * t331));
-    let t461 = mul_add(t375, t425, mul_sub(t330, t378, t327 * t418));
-    let t462 = mul_sub(t375, t396, t391 * t433);
-    let t463 = mul_add(t375, t427, mul_sub(t330, t383, t327 * t419));
-    let t464 = mul_sub(t379, t433, t375 * t393);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t465 = t447 - mul_add(t12, P::splat(P::lane(t367, 2)), t434);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t466 = mul_add(t56, t451, mul_add(t54, t435, t436));
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t467 = mul_add(t224 - t448, t457, t277 * t449);
-    // mass of payload and platform-side leg ends
-    let t468 = t121 + t131;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t469 = P::triple([P::lane(t438, 0), P::lane(t439, 0), P::lane(t440, 0)]);
-    let t470 = P::triple([P::lane(t438, 1), P::lane(t439, 1), P::lane(t440, 1)]);
-    // mass matrix of the legs
-    let t471 = t394 + t413;
-    // mass matrix M_p of the platform
-    let t472 = t398 + t414;
-    let t473 = t399 + t415;
-    // constant and copied elements
-    let t474 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
+    let t462 = mul_sub(t356, t362, t355 * t365);
+    let t463 = mul_sub(t363, t365, t362 * t367);
+    let t464 = t444 + t445 + t458;
     // inertia force less weight, without the actuators' own shares
-    let t475 = mul_add(t201, t346, t410);
-    let t476 = mul_add(t201, t347, t411);
-    let t477 = mul_add(t201, t348, t412);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t478 = mul_add(t51, t465, mul_add(t44, t445, t446));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t479 = mul_add(t183 - t455, t474, t218 * t456);
-    // first moments by platform coordinate of the payload's inertia force
-    let t480 = mul_add(t368, P::splat(P::lane(t392, 1)), t459);
+    let t465 = P::triple([P::lane(t424, 0), P::lane(t425, 0), P::lane(t426, 0)]);
+    let t466 = P::triple([P::lane(t424, 1), P::lane(t425, 1), P::lane(t426, 1)]);
     // mass matrix of the legs
-    let t481 = neg_mul_add(t379, t396, t460);
-    let t482 = neg_mul_add(t391, t462, t461);
-    let t483 = neg_mul_add(t391, t464, t463);
-    let t484 = P::triple([P::lane(t443, 0), -P::lane(t441, 0), P::lane(t444, 0)]);
-    let t485 = P::triple([P::lane(t443, 1), -P::lane(t441, 1), P::lane(t444, 1)]);
-    // mass matrix M_p of the platform
-    let t486 = t418 + t462;
-    let t487 = t419 + t464;
-    let t488 = t384 + t429;
-    let t489 = t378 + t425;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t490 = mul_add(t56, t390, mul_add(t54, t388, t52 * t389));
-    let t491 = mul_add(t341, t341, mul_add(t339, t339, t340 * t340));
-    // first moments by platform coordinate of the payload's inertia force
-    let t492 = t345 * P::splat(P::lane(t392, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t493 = P::triple([P::lane(t438, 2), P::lane(t439, 2), P::lane(t440, 2)]);
-    // mass matrix of the legs
-    let t494 = t383 + t427;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t495 = t469 + t470 + t493;
-    // mass matrix of the legs
-    let t496 = P::triple([P::lane(t452, 0), P::lane(t453, 0), P::lane(t454, 0)]);
-    let t497 = P::triple([P::lane(t452, 1), P::lane(t453, 1), P::lane(t454, 1)]);
+    let t467 = mul_sub(t413, t430, t418 * t432);
+    let t468 = mul_sub(t411, t432, t369 * t430);
+    // mass of payload and platform-side leg ends
+    let t469 = P::lane(t412, 2) + (P::lane(t412, 1) + P::lane(t412, 0));
     // constant and copied elements
-    let t498 =
+    let t470 =
+        P::triple([parameters.mover_offset[0], parameters.mover_offset[2], parameters.mover_offset[4]]);
+    // first moment of payload and platform-side leg ends
+    let t471 = mul_add(P::splat(parameters.payload_mass), t419, t436 + t437 + t451);
+    // mass matrix of the legs
+    let t472 = mul_sub(t369, t418, t438);
+    let t473 = mul_add(t430, t452, mul_add(t355, t433, t363 * t414));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t474 = mul_add(t454, t470, t453);
+    // first moments by platform coordinate of the payload's inertia force
+    let t475 = mul_add(t237, P::splat(P::lane(t443, 0)), t460);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t476 = mul_add(t155, t453, mul_add(t227, t434, t435));
+    // mass matrix of the legs
+    let t477 = mul_add(t368, t430, mul_sub(t355, t367, t356 * t363));
+    let t478 = mul_add(t430, t456, mul_sub(t355, t439, t363 * t423));
+    let t479 = mul_add(t430, t457, mul_sub(t355, t440, t363 * t422));
+    let t480 = mul_sub(t369, t411, t366 * t430);
+    let t481 = mul_sub(t366, t418, t368 * t411);
+    // inertia force less weight, without the actuators' own shares
+    let t482 = P::triple([P::lane(t424, 2), P::lane(t425, 2), P::lane(t426, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t483 = mul_add(t174, t459, t461);
+    // mass matrix of the legs
+    let t484 = P::lane(t450, 1) + P::lane(t450, 0);
+    // mass of payload and platform-side leg ends
+    let t485 = parameters.payload_mass + t469;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t486 = neg_mul_add(t39, t402, mul_add(t34, t403, t446));
+    let t487 = neg_mul_add(t36, t403, mul_add(t39, t401, t447));
+    let t488 = neg_mul_add(t34, t401, mul_add(t36, t402, t448));
+    // mass matrix of the legs
+    let t489 = t433 + t452;
+    let t490 = t372 + t432;
+    // mass matrix M_p of the platform
+    let t491 = t439 + t456;
+    let t492 = t440 + t457;
+    let t493 = t423 + t467;
+    let t494 = t414 + t468;
+    // mass matrix of the legs
+    let t495 = t422 + t472;
+    let t496 = mul_add(t418, t468, t473);
+    // first moments by platform coordinate of the payload's inertia force
+    let t497 = mul_add(t238, P::splat(P::lane(t431, 2)), t475);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t498 = mul_add(t167, t474, t476);
+    // mass matrix of the legs
+    let t499 = neg_mul_add(t369, t418, t477);
+    let t500 = neg_mul_add(t418, t467, t478);
+    let t501 = neg_mul_add(t418, t472, t479);
+    let t502 = P::triple([P::lane(t464, 1), P::lane(t449, 2), P::lane(t450, 2)]);
+    let t503 = P::triple([c(0.0), P::lane(t449, 1) + P::lane(t449, 0), t484]);
+    // mass matrix M_p of the platform
+    let t504 = t462 + t480;
+    let t505 = t463 + t481;
+    // inertia force less weight, without the actuators' own shares
+    let t506 = mul_add(t126, P::splat(t485), t465 + t466 + t482);
+    // first moments by platform coordinate of the payload's inertia force
+    let t507 = t215 * P::splat(P::lane(t443, 1));
+    // mass matrix of the legs
+    let t508 = t502 + t503;
+    // first moments by platform coordinate of the payload's inertia force
+    let t509 = mul_sub(t126, P::splat(P::lane(t471, 0)), t497);
+    let t510 = mul_add(t237, P::splat(P::lane(t431, 0)), t507);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t511 = mul_add(t268, t498, t279 * t483);
+    let t512 = mul_add(t280, t498, t306 * t483);
+    let t513 = mul_add(t281, t498, t307 * t483);
+    // mass matrix M_p of the platform
+    let t514 = platform_rotation[2][1] * P::lane(t471, 1);
+    // mass matrix of the legs
+    let t515 = mul_add(t411, t468, mul_sub(t362, t414, t355 * t462));
+    let t516 = mul_add(t411, t472, mul_sub(t362, t422, t355 * t463));
+    // mass matrix M_p of the platform
+    let t517 = P::triple([c(0.0), t485, c(0.0)]);
+    // inertia force less weight, without the actuators' own shares
+    let t518 = mul_sub(t237, P::splat(P::lane(t471, 0)), t506);
+    // mass matrix M_p of the platform
+    let t519 = platform_rotation[1][1] * P::lane(t471, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t520 = P::triple([P::lane(t281, 2), P::lane(t281, 0), P::lane(t281, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t521 = P::triple([P::lane(t268, 1), P::lane(t268, 2), P::lane(t268, 0)]);
+    // mass matrix M_p of the platform
+    let t522 = P::triple([P::lane(t491, 0), P::lane(t489, 0), P::lane(t492, 0)]);
+    let t523 = P::triple([P::lane(t491, 1), P::lane(t489, 1), P::lane(t492, 1)]);
+    // mass matrix of the legs
+    let t524 = t508 + t517;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t525 = P::triple([P::lane(t486, 0), P::lane(t487, 0), P::lane(t488, 0)]);
+    let t526 = P::triple([P::lane(t486, 1), P::lane(t487, 1), P::lane(t488, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t527 = P::triple([P::lane(t281, 1), P::lane(t281, 2), P::lane(t281, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t528 = P::triple([P::lane(t280, 2), P::lane(t280, 0), P::lane(t280, 1)]);
+    // mass matrix M_p of the platform
+    let t529 = P::triple([-P::lane(t493, 0), -P::lane(t494, 0), P::lane(t495, 0)]);
+    let t530 = P::triple([-P::lane(t493, 1), -P::lane(t494, 1), P::lane(t495, 1)]);
+    let t531 = P::mul_add(platform_rotation[2][0], P::lane(t471, 0), t514);
+    let t532 = -P::lane(t504, 0);
+    let t533 = -P::lane(t505, 0);
+    let t534 = -P::lane(t504, 1);
+    let t535 = -P::lane(t505, 1);
+    // mass of payload and platform-side leg ends
+    let t536 = P::triple([t485, c(0.0), c(0.0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t537 = mul_add(t238, P::splat(P::lane(t431, 1)), t510);
+    // mass matrix M_p of the platform
+    let t538 = P::mul_add(platform_rotation[1][0], P::lane(t471, 0), t519);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t539 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
+    // mass matrix of the legs
+    let t540 = neg_mul_add(t430, t480, t515);
+    let t541 = neg_mul_add(t430, t481, t516);
+    let t542 = P::triple([P::lane(t464, 2), P::lane(t508, 2), P::lane(t490, 2)]);
+    let t543 = P::triple([c(0.0), c(0.0), P::lane(t490, 1) + P::lane(t490, 0)]);
+    let t544 = P::triple([P::lane(t500, 0), -P::lane(t496, 0), P::lane(t501, 0)]);
+    let t545 = P::triple([P::lane(t500, 1), -P::lane(t496, 1), P::lane(t501, 1)]);
+    let t546 = P::triple([P::lane(t499, 1), t534, t535]);
+    // mass matrix M_p of the platform
+    let t547 = P::triple([P::lane(t491, 2), P::lane(t489, 2), P::lane(t492, 2)]);
+    let t548 = t464 + t536;
+    // inertia force less weight, without the actuators' own shares
+    let t549 = mul_add(t215, P::splat(P::lane(t471, 1)), t518);
+    // first moments by platform coordinate of the payload's inertia force
+    let t550 = t215 * P::splat(P::lane(t431, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t551 = P::triple([P::lane(t486, 2), P::lane(t487, 2), P::lane(t488, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t552 = t524 * P::splat(platform_acceleration[1]);
+    // mass matrix M_p of the platform
+    let t553 = platform_rotation[0][1] * P::lane(t471, 1);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t554 = P::triple([P::lane(t280, 1), P::lane(t280, 2), P::lane(t280, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t555 = mul_sub(t527, t539, t520 * t521);
+    // mass matrix of the legs
+    let t556 = P::triple([P::lane(t499, 0), t532, t533]) + t546;
+    // mass matrix M_p of the platform
+    let t557 = t522 + t523 + t547;
+    let t558 = P::triple([-P::lane(t493, 2), -P::lane(t494, 2), P::lane(t495, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t559 = t525 + t526 + t551;
+    // force along the actuator that balances the remaining wrench
+    let t560 = mul_sub(t520, t554, t527 * t528);
+    // mass matrix M_p of the platform
+    let t561 = -P::lane(t504, 2);
+    let t562 = -P::lane(t505, 2);
+    let t563 = t529 + t530 + t558;
+    let t564 = P::mul_add(platform_rotation[2][2], P::lane(t471, 2), t531);
+    // constant and copied elements
+    let t565 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t499 = t360 + t382;
-    let t500 = t334 + t377;
-    let t501 = P::triple([P::lane(t443, 2), -P::lane(t441, 2), P::lane(t444, 2)]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t502 = mul_add(t51, t348, mul_add(t44, t346, t39 * t347));
-    let t503 = mul_add(t283, t283, mul_add(t281, t281, t282 * t282));
-    // constant and copied elements
-    let t504 =
-        P::triple([parameters.mover_offset[3], parameters.mover_offset[4], parameters.mover_offset[5]]);
+    let t566 = P::triple([P::lane(t500, 2), -P::lane(t496, 2), P::lane(t501, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t505 = mul_sub(t127, P::splat(P::lane(t432, 1)), t480);
-    let t506 = mul_add(t367, P::splat(P::lane(t392, 2)), t492);
-    let t507 = P::triple([P::lane(t458, 2), P::lane(t458, 0), P::lane(t458, 1)]);
+    let t567 = mul_sub(t126, P::splat(P::lane(t471, 1)), t537);
+    let t568 = mul_add(t237, P::splat(P::lane(t431, 2)), t550);
+    let t569 = P::triple([P::lane(t509, 2), P::lane(t509, 0), P::lane(t509, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t570 = P::triple([P::lane(t511, 0), P::lane(t512, 0), P::lane(t513, 0)]);
+    let t571 = P::triple([P::lane(t511, 1), P::lane(t512, 1), P::lane(t513, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t508 = P::splat(parameters.payload_com[1]) * t498;
-    // mass matrix of the legs
-    let t509 = mul_add(t379, t464, mul_sub(t331, t419, t330 * t399));
-    let t510 = t484 + t485 + t501;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t511 = mul_add(t491, t504, t490);
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t512 = mul_add(t166, t490, mul_add(t247, t466, t467));
+    let t572 = mul_add(t548, P::splat(platform_acceleration[0]), t552);
     // mass matrix M_p of the platform
-    let t513 = platform_rotation[2][1] * P::lane(t432, 1);
+    let t573 = P::mul_add(platform_rotation[1][2], P::lane(t471, 2), t538);
+    let t574 = P::mul_add(platform_rotation[0][0], P::lane(t471, 0), t553);
+    // inertia less external wrench that the actuators must balance
+    let t575 = P::splat(parameters.payload_com[1]) * t565;
     // mass matrix of the legs
-    let t514 = P::triple([P::lane(t452, 2), P::lane(t453, 2), P::lane(t454, 2)]);
-    // mass matrix M_p of the platform
-    let t515 = P::triple([P::lane(t472, 0), P::lane(t471, 0), P::lane(t473, 0)]);
-    let t516 = P::triple([P::lane(t472, 1), P::lane(t471, 1), P::lane(t473, 1)]);
-    let t517 = platform_rotation[0][1] * P::lane(t432, 1);
-    // constant and copied elements
-    let t518 =
-        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
-    // mass matrix of the legs
-    let t519 = t496 + t497 + t514;
-    // constant and copied elements
-    let t520 =
-        P::triple([parameters.mover_offset[0], parameters.mover_offset[1], parameters.mover_offset[2]]);
+    let t576 = mul_add(t418, t481, mul_sub(t363, t463, t362 * t440));
+    let t577 = t544 + t545 + t566;
+    let t578 = t556 + P::triple([P::lane(t499, 2), t561, t562]);
+    let t579 = t542 + t543 + P::triple([c(0.0), c(0.0), t485]);
     // inertia force less weight, without the actuators' own shares
-    let t521 = P::triple([P::lane(t475, 0), P::lane(t476, 0), P::lane(t477, 0)]);
-    let t522 = P::triple([P::lane(t475, 1), P::lane(t476, 1), P::lane(t477, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t523 = mul_add(P::splat(parameters.payload_com[0]), t518, t508);
-    // mass matrix M_p of the platform
-    let t524 = -P::lane(t486, 0);
-    let t525 = -P::lane(t487, 0);
-    let t526 = -P::lane(t486, 1);
-    let t527 = -P::lane(t487, 1);
-    // mass of payload and platform-side leg ends
-    let t528 = P::lane(t468, 2) + (P::lane(t468, 1) + P::lane(t468, 0));
-    // mass matrix M_p of the platform
-    let t529 = platform_rotation[0][1] * P::lane(t392, 0);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t530 = mul_add(t503, t520, t502);
-    // first moments by platform coordinate of the payload's inertia force
-    let t531 = mul_add(t368, P::splat(P::lane(t400, 2)), t506);
-    // rotation of the platform seen from the base
-    let t532 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t533 = P::triple([P::lane(t458, 1), P::lane(t458, 2), P::lane(t458, 0)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t534 = mul_add(t146, t502, mul_add(t201, t478, t479));
-    // mass matrix M_p of the platform
-    let t535 = P::mul_add(platform_rotation[2][0], P::lane(t432, 0), t513);
-    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t536 = mul_sub(t322, t379, t299 * t391);
-    let t537 = mul_sub(t321, t391, t322 * t375);
-    let t538 = mul_sub(t299, t375, t321 * t379);
-    // mass matrix of the legs
-    let t539 = neg_mul_add(t375, t415, t509);
-    let t540 = P::lane(t483, 1) + P::lane(t483, 0);
-    let t541 = P::triple([P::lane(t481, 1), t526, t527]);
-    // mass matrix M_p of the platform
-    let t542 = P::triple([P::lane(t472, 2), P::lane(t471, 2), P::lane(t473, 2)]);
-    let t543 = P::triple([-P::lane(t488, 0), -P::lane(t489, 0), P::lane(t494, 0)]);
-    let t544 = P::triple([-P::lane(t488, 1), -P::lane(t489, 1), P::lane(t494, 1)]);
-    // moment of the inertia force about the platform origin
-    let t545 = neg_mul_add(t532, t533, mul_add(t265, t507, t495));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t546 = mul_add(t180, t511, t512);
-    // mass matrix M_p of the platform
-    let t547 = platform_rotation[1][1] * P::lane(t432, 1);
-    let t548 = P::mul_add(platform_rotation[0][0], P::lane(t432, 0), t517);
-    // mass matrix of the legs
-    let t549 = P::triple([P::lane(t481, 0), t524, t525]) + t541;
-    // mass matrix M_p of the platform
-    let t550 = t515 + t516 + t542;
-    // inertia force less weight, without the actuators' own shares
-    let t551 = P::triple([P::lane(t475, 2), P::lane(t476, 2), P::lane(t477, 2)]);
-    // constant and copied elements
-    let t552 =
-        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
-    // mass matrix of the legs
-    let t553 = P::lane(t500, 1) + P::lane(t500, 0);
-    // mass matrix M_p of the platform
-    let t554 = -P::lane(t486, 2);
-    let t555 = -P::lane(t487, 2);
-    // mass of payload and platform-side leg ends
-    let t556 = parameters.payload_mass + t528;
-    // mass matrix M_p of the platform
-    let t557 = P::mul_add(platform_rotation[0][0], P::lane(t400, 0), t529);
-    // constant and copied elements
-    let t558 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t559 = mul_add(P::splat(parameters.payload_com[2]), t552, t523);
-    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t560 = mul_sub(t239, t331, t238 * t327);
-    let t561 = mul_sub(t230, t327, t239 * t330);
-    let t562 = mul_sub(t238, t330, t230 * t331);
-    // mass matrix of the legs
-    let t563 = t335 + t401;
-    let t564 = P::triple([P::lane(t510, 1), P::lane(t482, 2), P::lane(t483, 2)]);
-    let t565 = P::triple([c(0.0), P::lane(t482, 1) + P::lane(t482, 0), t540]);
-    // mass matrix M_p of the platform
-    let t566 = P::triple([-P::lane(t488, 2), -P::lane(t489, 2), P::lane(t494, 2)]);
-    let t567 = P::lane(t400, 2) + (P::lane(t400, 0) + P::lane(t400, 1));
-    let t568 = platform_rotation[0][1] * P::lane(t400, 1);
-    let t569 = P::splat(P::lane(t392, 0)) * t558;
-    // first moments by platform coordinate of the payload's inertia force
-    let t570 = mul_sub(t127, P::splat(P::lane(t432, 2)), t531);
-    let t571 = P::triple([P::lane(t505, 2), P::lane(t505, 0), P::lane(t505, 1)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t572 = mul_add(t155, t530, t534);
-    // mass matrix M_p of the platform
-    let t573 = P::mul_add(platform_rotation[2][2], P::lane(t432, 2), t535);
-    let t574 = P::mul_add(platform_rotation[1][0], P::lane(t432, 0), t547);
-    // mass matrix of the legs
-    let t575 = t564 + t565;
-    let t576 = t549 + P::triple([P::lane(t481, 2), t554, t555]);
-    // mass matrix M_p of the platform
-    let t577 = t543 + t544 + t566;
-    let t578 = P::mul_add(platform_rotation[0][2], P::lane(t432, 2), t548);
-    // mass matrix of the legs
-    let t579 = P::triple([P::lane(t519, 1), P::lane(t499, 2), P::lane(t500, 2)]);
-    let t580 = P::triple([c(0.0), P::lane(t499, 1) + P::lane(t499, 0), t553]);
+    let t580 = mul_add(t238, P::splat(P::lane(t471, 2)), t549);
     // constant and copied elements
     let t581 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t582 = mul_add(t127, P::splat(t556), t521 + t522 + t551);
-    // mass matrix of the legs
-    let t583 = t579 + t580;
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t582 = P::triple([P::lane(t511, 2), P::lane(t512, 2), P::lane(t513, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t583 = mul_add(P::splat(parameters.payload_com[0]), t581, t575);
+    // force along the actuator that balances the remaining wrench
+    let t584 = t306 * P::splat(P::lane(t555, 0));
     // mass matrix M_p of the platform
-    let t584 = P::mul_add(platform_rotation[0][2], P::lane(t392, 2), t557);
-    // constant and copied elements
-    let t585 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // mass matrix M_p of the platform
-    let t586 = P::mul_add(platform_rotation[0][0], P::lane(t392, 0), t568);
-    let t587 = mul_add(P::splat(P::lane(t400, 0)), t581, t569);
-    // constant and copied elements
-    let t588 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t589 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t590 = t510 + P::triple([t567, c(0.0), c(0.0)]);
-    let t591 = platform_rotation[0][1] * P::lane(t392, 1);
-    let t592 = P::splat(P::lane(t400, 1)) * t558;
-    let t593 = P::splat(P::lane(t392, 0)) * t585;
-    // rotation of the platform seen from the base
-    let t594 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t585 = platform_rotation[0][1] * P::lane(t431, 0);
     // first moments by platform coordinate of the payload's inertia force
-    let t595 = P::triple([P::lane(t505, 1), P::lane(t505, 2), P::lane(t505, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t596 = mul_add(t560, t572, t536 * t546);
-    let t597 = mul_add(t561, t572, t537 * t546);
-    let t598 = mul_add(t562, t572, t538 * t546);
+    let t586 = mul_add(t238, P::splat(P::lane(t443, 2)), t568);
+    // rotation of the platform seen from the base
+    let t587 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t588 = P::triple([P::lane(t509, 1), P::lane(t509, 2), P::lane(t509, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t589 = mul_add(t579, P::splat(platform_acceleration[2]), t572);
     // mass matrix M_p of the platform
-    let t599 = P::mul_add(platform_rotation[1][2], P::lane(t432, 2), t574);
+    let t590 = t573 + P::lane(t563, 0);
+    mass_matrix_p[2][3] = t590;
+    mass_matrix_p[3][2] = t590;
+    let t591 = P::mul_add(platform_rotation[0][2], P::lane(t471, 2), t574);
+    // force along the actuator that balances the remaining wrench
+    let t592 = mul_sub(t521, t528, t539 * t554);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t593 = mul_sub(t307, t418, t306 * t430);
+    let t594 = mul_sub(t279, t430, t307 * t411);
+    let t595 = mul_sub(t306, t411, t279 * t418);
+    // mass matrix of the legs
+    let t596 = neg_mul_add(t411, t457, t576);
+    let t597 = P::lane(t541, 1) + P::lane(t541, 0);
     // moment of the inertia force about the platform origin
-    let t600 = neg_mul_add(t594, t595, mul_add(t236, t571, t545));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t601 = mul_add(t230, t572, t321 * t546);
-    let t602 = mul_add(t238, t572, t299 * t546);
-    let t603 = mul_add(t239, t572, t322 * t546);
+    let t598 = neg_mul_add(t587, t588, mul_add(t162, t569, t559));
+    // constant and copied elements
+    let t599 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t600 = -P::lane(t578, 0);
+    mass_matrix_p[0][3] = t600;
+    mass_matrix_p[3][0] = t600;
     // mass matrix M_p of the platform
-    let t604 = t578 - P::lane(t550, 2);
-    mass_matrix_p[1][5] = t604;
-    mass_matrix_p[5][1] = t604;
-    let t605 = P::triple([c(0.0), t556, c(0.0)]);
+    let t601 = -(t564 + P::lane(t557, 0));
+    mass_matrix_p[1][3] = t601;
+    mass_matrix_p[3][1] = t601;
+    // constant and copied elements
+    let t602 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t603 = mul_add(t279, P::splat(P::lane(t560, 0)), t584);
+    let t604 = P::lane(t268, 1) * P::lane(t560, 1);
+    // mass matrix M_p of the platform
+    let t605 = P::mul_add(platform_rotation[0][0], P::lane(t443, 0), t585);
     // constant and copied elements
     let t606 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t607 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
-    // inertia force less weight, without the actuators' own shares
-    let t608 = mul_sub(t367, P::splat(P::lane(t432, 0)), t582);
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t607 = mul_add(P::splat(P::lane(t580, 0)), t599, t570 + t571 + t582);
     // mass matrix of the legs
-    let t609 = t583 + t605;
-    // mass matrix M_p of the platform
-    let t610 = neg_mul_add(P::splat(t584), t606, t590);
-    let t611 = P::mul_add(platform_rotation[0][2], P::lane(t392, 1), t586);
-    let t612 = P::mul_add(platform_rotation[0][0], P::lane(t392, 2), t591);
-    let t613 = P::triple([c(0.0), t567, c(0.0)]);
-    let t614 = mul_add(P::splat(P::lane(t392, 2)), t607, t587);
-    let t615 = mul_add(P::splat(P::lane(t392, 0)), t581, t592);
-    let t616 = mul_add(P::splat(P::lane(t400, 0)), t606, t593);
-    let t617 = -(t573 + P::lane(t550, 0));
-    mass_matrix_p[1][3] = t617;
-    mass_matrix_p[3][1] = t617;
-    // constant and copied elements
-    let t618 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t608 = P::triple([t600, t601, t590]);
     // inertia less external wrench that the actuators must balance
-    let t619 = P::triple([P::lane(t559, 1), P::lane(t559, 2), P::lane(t559, 0)]);
+    let t609 = mul_add(P::splat(parameters.payload_com[2]), t602, t583);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t610 = mul_sub(t281, t363, t280 * t355);
+    let t611 = mul_sub(t268, t355, t281 * t362);
+    let t612 = mul_sub(t280, t362, t268 * t363);
     // mass matrix of the legs
-    let t620 = P::triple([P::lane(t510, 2), P::lane(t575, 2), P::lane(t539, 2)]);
-    let t621 = P::triple([c(0.0), c(0.0), P::lane(t539, 1) + P::lane(t539, 0)]);
-    let t622 = t575 + t613;
+    let t613 = P::triple([P::lane(t577, 1), P::lane(t540, 2), P::lane(t541, 2)]);
+    let t614 = P::triple([c(0.0), P::lane(t540, 1) + P::lane(t540, 0), t597]);
     // mass matrix M_p of the platform
-    let t623 = P::splat(P::lane(t392, 1)) * t558;
-    let t624 = P::splat(P::lane(t400, 1)) * t585;
+    let t615 = P::lane(t443, 2) + (P::lane(t443, 0) + P::lane(t443, 1));
+    let t616 = platform_rotation[0][1] * P::lane(t443, 1);
+    let t617 = P::splat(P::lane(t431, 0)) * t606;
     // first moments by platform coordinate of the payload's inertia force
-    let t625 = P::triple([P::lane(t570, 2), P::lane(t570, 0), P::lane(t570, 1)]);
+    let t618 = mul_sub(t126, P::splat(P::lane(t471, 2)), t586);
+    let t619 = P::triple([P::lane(t567, 2), P::lane(t567, 0), P::lane(t567, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t620 = mul_add(t608, P::splat(platform_acceleration[3]), t589);
     // mass matrix M_p of the platform
-    let t626 = t599 + P::lane(t577, 0);
-    mass_matrix_p[2][3] = t626;
-    mass_matrix_p[3][2] = t626;
-    let t627 = t573 + P::lane(t576, 1);
-    mass_matrix_p[0][4] = t627;
-    mass_matrix_p[4][0] = t627;
-    let t628 = P::lane(t577, 1) - t578;
-    mass_matrix_p[2][4] = t628;
-    mass_matrix_p[4][2] = t628;
-    let t629 = P::lane(t576, 2) - t599;
-    mass_matrix_p[0][5] = t629;
-    mass_matrix_p[5][0] = t629;
-    let t630 = P::triple([t617, P::lane(t550, 1), t604]);
-    // inertia less external wrench that the actuators must balance
-    let t631 = neg_mul_add(t618, t619, mul_add(t559, t589, t588));
-    // mass of payload and platform-side leg ends
-    let t632 = P::triple([t556, c(0.0), c(0.0)]);
-    // inertia less external wrench that the actuators must balance
-    let t633 = t630 * P::splat(platform_acceleration[1]);
+    let t621 = t564 + P::lane(t578, 1);
+    mass_matrix_p[0][4] = t621;
+    mass_matrix_p[4][0] = t621;
+    let t622 = P::lane(t563, 1) - t591;
+    mass_matrix_p[2][4] = t622;
+    mass_matrix_p[4][2] = t622;
+    let t623 = P::lane(t578, 2) - t573;
+    mass_matrix_p[0][5] = t623;
+    mass_matrix_p[5][0] = t623;
+    let t624 = t591 - P::lane(t557, 2);
+    mass_matrix_p[1][5] = t624;
+    mass_matrix_p[5][1] = t624;
     // mass matrix of the legs
-    let t634 = P::triple([P::lane(t519, 2), P::lane(t583, 2), P::lane(t563, 2)]);
-    let t635 = P::triple([c(0.0), c(0.0), P::lane(t563, 1) + P::lane(t563, 0)]);
-    // mass matrix M_p of the platform
-    let t636 = t519 + t632;
-    // constant and copied elements
-    let t637 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t638 =
-        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t639 = mul_add(t345, P::splat(P::lane(t432, 1)), t608);
-    // inertia less external wrench that the actuators must balance
-    let t640 = t609 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t641 = -P::lane(t576, 0);
-    mass_matrix_p[0][3] = t641;
-    mass_matrix_p[3][0] = t641;
-    let t642 = -P::lane(t577, 2);
-    mass_matrix_p[2][5] = t642;
-    mass_matrix_p[5][2] = t642;
-    // mass matrix M_p of the platform
-    let t643 = neg_mul_add(t585, P::splat(t611), t610);
-    let t644 = P::mul_add(platform_rotation[0][2], P::lane(t400, 2), t612);
-    let t645 = mul_add(P::splat(P::lane(t392, 1)), t607, t615);
-    let t646 = mul_add(P::splat(P::lane(t392, 2)), t581, t623);
-    let t647 = P::triple([c(0.0), c(0.0), t567]);
-    let t648 = mul_add(P::splat(P::lane(t392, 2)), t637, t616);
-    let t649 = mul_add(P::splat(P::lane(t392, 0)), t606, t624);
-    // mass matrix of the legs
-    let t650 = P::triple([t641, t627, t629]);
-    // mass matrix M_p of the platform
-    let t651 = P::triple([t626, t628, t642]);
-    // mass matrix of the legs
-    let t652 = t620 + t621 + t647;
-    // mass matrix M_p of the platform
-    let t653 = P::splat(P::lane(t392, 1)) * t585;
-    // rotation of the platform seen from the base
-    let t654 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t655 = P::triple([P::lane(t570, 1), P::lane(t570, 2), P::lane(t570, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t656 = P::triple([P::lane(t596, 0), P::lane(t597, 0), P::lane(t598, 0)]);
-    let t657 = P::triple([P::lane(t596, 1), P::lane(t597, 1), P::lane(t598, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t658 = neg_mul_add(t651, P::splat(platform_acceleration[2]), t631);
-    // moment of the inertia force about the platform origin
-    let t659 = neg_mul_add(t654, t655, mul_add(t266, t625, t600));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t660 = P::triple([P::lane(t601, 0), P::lane(t602, 0), P::lane(t603, 0)]);
-    let t661 = P::triple([P::lane(t601, 1), P::lane(t602, 1), P::lane(t603, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t662 = mul_add(t636, P::splat(platform_acceleration[0]), t640);
-    // mass matrix of the legs
-    let t663 = t634 + t635 + P::triple([c(0.0), c(0.0), t556]);
-    // constant and copied elements
-    let t664 =
-        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // inertia force less weight, without the actuators' own shares
-    let t665 = mul_add(t368, P::splat(P::lane(t432, 2)), t639);
-    // mass matrix M_p of the platform
-    let t666 = neg_mul_add(t637, P::splat(t644), t643);
-    let t667 = neg_mul_add(t645, t664, neg_mul_add(t614, t638, t622));
-    let t668 = mul_add(P::splat(P::lane(t400, 2)), t607, t646);
-    let t669 = neg_mul_add(P::splat(platform_rotation[2][0]), t648, t652);
-    let t670 = mul_add(P::splat(P::lane(t392, 1)), t637, t649);
-    let t671 = mul_add(P::splat(P::lane(t392, 2)), t606, t653);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t672 = P::triple([P::lane(t596, 2), P::lane(t597, 2), P::lane(t598, 2)]);
-    let t673 = P::triple([P::lane(t601, 2), P::lane(t602, 2), P::lane(t603, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t674 = t658 - mul_add(t650, P::splat(platform_acceleration[0]), t633);
-    let t675 = mul_add(P::splat(platform_acceleration[2]), t663, t662);
-    // constant and copied elements
-    let t676 =
-        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t677 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix M_p of the platform
-    let t678 = neg_mul_add(t668, t676, t667);
-    let t679 = neg_mul_add(P::splat(platform_rotation[2][1]), t670, t669);
-    let t680 = mul_add(P::splat(P::lane(t400, 2)), t637, t671);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t681 = neg_mul_add(P::splat(P::lane(t659, 0)), t677, t656 + t657 + t672);
-    // inertia less external wrench that the actuators must balance
-    let t682 = neg_mul_add(t666, P::splat(platform_acceleration[3]), t674);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t683 = mul_add(t677, P::splat(P::lane(t665, 0)), t660 + t661 + t673);
-    // mass matrix of the legs
-    let t684 = P::triple([t641, t617, t626]);
-    // constant and copied elements
-    let t685 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t686 = mul_add(P::splat(platform_acceleration[3]), t684, t675);
-    // mass matrix M_p of the platform
-    let t687 = neg_mul_add(P::splat(platform_rotation[2][2]), t680, t679);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t688 = mul_sub(P::splat(P::lane(t659, 1)), t685, t681);
-    // inertia less external wrench that the actuators must balance
-    let t689 = neg_mul_add(t678, P::splat(platform_acceleration[4]), t682);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t690 = mul_add(P::splat(P::lane(t665, 1)), t685, t683);
-    // mass matrix M_p of the platform
-    let t691 = P::triple([t627, P::lane(t550, 1), t628]);
-    let t692 = P::triple([t629, t604, t642]);
-    // constant and copied elements
-    let t693 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    // inertia less external wrench that the actuators must balance
-    let t694 = mul_sub(t692, P::splat(platform_acceleration[5]), t693);
-    // constant and copied elements
-    let t695 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t696 = mul_add(P::splat(P::lane(t659, 2)), t695, t688);
-    let t697 = mul_add(P::splat(P::lane(t665, 2)), t695, t690);
-    // inertia less external wrench that the actuators must balance
-    let t698 = mul_add(P::splat(platform_acceleration[4]), t691, t686) + t694;
-    let t699 = neg_mul_add(t687, P::splat(platform_acceleration[5]), t689) + t696;
-    let t700 = t697 + t698;
-    let t701 = -P::lane(t699, 0);
-    let t702 = -P::lane(t699, 1);
-    let t703 = -P::lane(t699, 2);
+    let t625 = t613 + t614;
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t626 = P::mul_add(P::lane(t268, 0), P::lane(t560, 0), t604);
+    // constant and copied elements
+    let t627 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t628 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix of the legs
+    let t629 = -P::lane(t563, 2);
+    mass_matrix_p[2][5] = t629;
+    mass_matrix_p[5][2] = t629;
+    // force along the actuator that balances the remaining wrench
+    let t630 = mul_add(t307, P::splat(P::lane(t592, 0)), t603);
+    let t631 = t306 * P::splat(P::lane(t555, 1));
+    // mass matrix M_p of the platform
+    let t632 = P::mul_add(platform_rotation[0][2], P::lane(t431, 2), t605);
+    // constant and copied elements
+    let t633 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t634 = P::mul_add(platform_rotation[0][0], P::lane(t431, 0), t616);
+    let t635 = mul_add(P::splat(P::lane(t443, 0)), t627, t617);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t636 = mul_add(P::splat(P::lane(t580, 1)), t628, t607);
+    // mass matrix M_p of the platform
+    let t637 = P::triple([t621, P::lane(t557, 1), t622]);
+    let t638 = P::triple([t623, t624, t629]);
+    // constant and copied elements
+    let t639 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t640 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t641 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t642 = t577 + P::triple([t615, c(0.0), c(0.0)]);
+    let t643 = platform_rotation[0][1] * P::lane(t431, 1);
+    let t644 = P::splat(P::lane(t443, 1)) * t606;
+    let t645 = P::splat(P::lane(t431, 0)) * t633;
+    // rotation of the platform seen from the base
+    let t646 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t647 = P::triple([P::lane(t567, 1), P::lane(t567, 2), P::lane(t567, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t648 = mul_add(t498, t610, t483 * t593);
+    let t649 = mul_add(t498, t611, t483 * t594);
+    let t650 = mul_add(t498, t612, t483 * t595);
+    // inertia less external wrench that the actuators must balance
+    let t651 = mul_sub(t638, P::splat(platform_acceleration[5]), t639);
+    // moment of the inertia force about the platform origin
+    let t652 = neg_mul_add(t646, t647, mul_add(t153, t619, t598));
+    // force along the actuator that balances the remaining wrench
+    let t653 = mul_add(t279, P::splat(P::lane(t560, 1)), t631);
+    let t654 = P::mul_add(P::lane(t268, 2), P::lane(t560, 2), t626);
+    // constant and copied elements
+    let t655 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t656 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t657 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t658 = t306 * P::splat(P::lane(t555, 2));
+    // mass matrix M_p of the platform
+    let t659 = neg_mul_add(P::splat(t632), t655, t642);
+    let t660 = P::mul_add(platform_rotation[0][2], P::lane(t431, 1), t634);
+    let t661 = P::mul_add(platform_rotation[0][0], P::lane(t431, 2), t643);
+    let t662 = P::triple([c(0.0), t615, c(0.0)]);
+    let t663 = mul_add(P::splat(P::lane(t431, 2)), t656, t635);
+    let t664 = mul_add(P::splat(P::lane(t431, 0)), t627, t644);
+    let t665 = mul_add(P::splat(P::lane(t443, 0)), t655, t645);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t666 = mul_add(P::splat(P::lane(t580, 2)), t657, t636);
+    // constant and copied elements
+    let t667 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t668 = P::triple([P::lane(t609, 1), P::lane(t609, 2), P::lane(t609, 0)]);
+    // mass matrix of the legs
+    let t669 = P::triple([P::lane(t577, 2), P::lane(t625, 2), P::lane(t596, 2)]);
+    let t670 = P::triple([c(0.0), c(0.0), P::lane(t596, 1) + P::lane(t596, 0)]);
+    let t671 = t625 + t662;
+    // mass matrix M_p of the platform
+    let t672 = P::splat(P::lane(t431, 1)) * t606;
+    let t673 = P::splat(P::lane(t443, 1)) * t633;
+    // first moments by platform coordinate of the payload's inertia force
+    let t674 = P::triple([P::lane(t618, 2), P::lane(t618, 0), P::lane(t618, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t675 = mul_add(t637, P::splat(platform_acceleration[4]), t620) + t651;
+    // mass matrix M_p of the platform
+    let t676 = P::triple([t601, P::lane(t557, 1), t624]);
+    // inertia less external wrench that the actuators must balance
+    let t677 = neg_mul_add(t667, t668, mul_add(t609, t641, t640));
+    let t678 = P::splat(platform_acceleration[1]) * t676;
+    // force along the actuator that balances the remaining wrench
+    let t679 = mul_add(t307, P::splat(P::lane(t592, 1)), t653);
+    let t680 = mul_add(t279, P::splat(P::lane(t560, 2)), t658);
+    let t681 = mul_sub(t594, P::splat(t654), t630 * P::splat(P::lane(t611, 0)));
+    let t682 = mul_sub(t595, P::splat(t654), t630 * P::splat(P::lane(t612, 0)));
+    // constant and copied elements
+    let t683 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t684 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t685 = neg_mul_add(t633, P::splat(t660), t659);
+    let t686 = P::mul_add(platform_rotation[0][2], P::lane(t443, 2), t661);
+    let t687 = mul_add(P::splat(P::lane(t431, 1)), t656, t664);
+    let t688 = mul_add(P::splat(P::lane(t431, 2)), t627, t672);
+    let t689 = P::triple([c(0.0), c(0.0), t615]);
+    let t690 = mul_add(P::splat(P::lane(t431, 2)), t683, t665);
+    let t691 = mul_add(P::splat(P::lane(t431, 0)), t655, t673);
+    // inertia less external wrench that the actuators must balance
+    let t692 = t666 + t675;
+    // mass matrix of the legs
+    let t693 = P::triple([t600, t621, t623]);
+    // mass matrix M_p of the platform
+    let t694 = P::triple([t590, t622, t629]);
+    // mass matrix of the legs
+    let t695 = t669 + t670 + t689;
+    // mass matrix M_p of the platform
+    let t696 = P::splat(P::lane(t431, 1)) * t633;
+    // rotation of the platform seen from the base
+    let t697 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t698 = P::triple([P::lane(t618, 1), P::lane(t618, 2), P::lane(t618, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t699 = P::triple([P::lane(t648, 0), P::lane(t649, 0), P::lane(t650, 0)]);
+    let t700 = P::triple([P::lane(t648, 1), P::lane(t649, 1), P::lane(t650, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t701 = neg_mul_add(P::splat(platform_acceleration[2]), t694, t677);
+    // moment of the inertia force about the platform origin
+    let t702 = neg_mul_add(t697, t698, mul_add(t163, t674, t652));
+    // force along the actuator that balances the remaining wrench
+    let t703 = mul_add(t307, P::splat(P::lane(t592, 2)), t680);
+    let t704 = neg_mul_add(P::splat(P::lane(t611, 1)), t679, t681);
+    let t705 = neg_mul_add(P::splat(P::lane(t612, 1)), t679, t682);
+    // constant and copied elements
+    let t706 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t707 = neg_mul_add(t683, P::splat(t686), t685);
+    let t708 = neg_mul_add(t687, t706, neg_mul_add(t663, t684, t671));
+    let t709 = mul_add(P::splat(P::lane(t443, 2)), t656, t688);
+    let t710 = neg_mul_add(P::splat(platform_rotation[2][0]), t690, t695);
+    let t711 = mul_add(P::splat(P::lane(t431, 1)), t683, t691);
+    let t712 = mul_add(P::splat(P::lane(t431, 2)), t655, t696);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t713 = P::triple([P::lane(t648, 2), P::lane(t649, 2), P::lane(t650, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t714 = t701 - mul_add(P::splat(platform_acceleration[0]), t693, t678);
+    // force along the actuator that balances the remaining wrench
+    let t715 = neg_mul_add(P::splat(P::lane(t611, 2)), t703, t704);
+    let t716 = neg_mul_add(P::splat(P::lane(t612, 2)), t703, t705);
+    // constant and copied elements
+    let t717 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t718 = t555 * P::splat(P::lane(t692, 1));
+    // mass matrix M_p of the platform
+    let t719 = neg_mul_add(t709, t717, t708);
+    let t720 = neg_mul_add(P::splat(platform_rotation[2][1]), t711, t710);
+    let t721 = mul_add(P::splat(P::lane(t443, 2)), t683, t712);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t722 = neg_mul_add(t599, P::splat(P::lane(t702, 0)), t699 + t700 + t713);
+    // inertia less external wrench that the actuators must balance
+    let t723 = neg_mul_add(P::splat(platform_acceleration[3]), t707, t714);
+    // force along the actuator that balances the remaining wrench
+    let t724 = mul_sub(t593, P::splat(t654), t630 * P::splat(P::lane(t610, 0)));
+    let t725 = mul_add(t560, P::splat(P::lane(t692, 0)), t718);
+    // mass matrix M_p of the platform
+    let t726 = neg_mul_add(P::splat(platform_rotation[2][2]), t721, t720);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t727 = mul_sub(t628, P::splat(P::lane(t702, 1)), t722);
+    // inertia less external wrench that the actuators must balance
+    let t728 = neg_mul_add(P::splat(platform_acceleration[4]), t719, t723);
+    // force along the actuator that balances the remaining wrench
+    let t729 = mul_add(t592, P::splat(P::lane(t692, 2)), t725);
+    let t730 = neg_mul_add(t679, P::splat(P::lane(t610, 1)), t724);
+    let t731 = P::triple([P::lane(t715, 2), P::lane(t715, 0), P::lane(t715, 1)]);
+    let t732 = P::triple([P::lane(t716, 1), P::lane(t716, 2), P::lane(t716, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t733 = mul_add(t657, P::splat(P::lane(t702, 2)), t727);
+    // force along the actuator that balances the remaining wrench
+    let t734 = P::triple([P::lane(t715, 1), P::lane(t715, 2), P::lane(t715, 0)]);
+    let t735 = P::triple([P::lane(t716, 2), P::lane(t716, 0), P::lane(t716, 1)]);
+    let t736 = neg_mul_add(t703, P::splat(P::lane(t610, 2)), t730);
+    let t737 = mul_sub(t734, t735, t731 * t732);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t738 = P::triple([P::lane(t610, 0), P::lane(t611, 0), P::lane(t612, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t739 = t733 + neg_mul_add(P::splat(platform_acceleration[5]), t726, t728);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t740 = P::triple([P::lane(t610, 1), P::lane(t611, 1), P::lane(t612, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t741 = mul_add(P::splat(t654), t739, P::splat(P::lane(t729, 0)) * t738);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t742 = P::triple([P::lane(t610, 2), P::lane(t611, 2), P::lane(t612, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t743 = P::lane(t736, 1) * P::lane(t737, 1);
+    let t744 = P::triple([P::lane(t736, 1), P::lane(t736, 2), P::lane(t736, 0)]);
+    let t745 = mul_add(P::splat(P::lane(t729, 1)), t740, t741);
+    let t746 = P::triple([P::lane(t736, 2), P::lane(t736, 0), P::lane(t736, 1)]);
+    let t747 = P::mul_add(P::lane(t736, 0), P::lane(t737, 0), t743);
+    let t748 = mul_add(P::splat(P::lane(t729, 2)), t742, t745);
+    let t749 = P::triple([P::lane(t630, 0), P::lane(t679, 0), P::lane(t703, 0)]);
+    let t750 = mul_sub(t731, t744, t734 * t746);
+    let t751 = c(1.0) / P::mul_add(P::lane(t736, 2), P::lane(t737, 2), t747);
+    let t752 = P::triple([P::lane(t630, 1), P::lane(t679, 1), P::lane(t703, 1)]);
+    let t753 = mul_sub(t732, t746, t735 * t744) * P::splat(P::lane(t748, 1));
+    let t754 = mul_add(t737, P::splat(P::lane(t748, 0)), t753);
+    let t755 = P::triple([P::lane(t630, 2), P::lane(t679, 2), P::lane(t703, 2)]);
+    let t756 = P::splat(t751) * mul_add(t750, P::splat(P::lane(t748, 2)), t754);
+    // inertia less external wrench that the actuators must balance
+    let t757 = -P::lane(t739, 0);
+    let t758 = -P::lane(t739, 1);
+    // force along the actuator that balances the remaining wrench
+    let t759 = -t756;
+    let t760 = mul_add(t749, P::splat(P::lane(t756, 0)), t729);
+    // inertia less external wrench that the actuators must balance
+    let t761 = -P::lane(t739, 2);
+    // force along the actuator that balances the remaining wrench
+    let t762 = mul_add(t752, P::splat(P::lane(t756, 1)), t760);
+    let t763 = mul_add(t755, P::splat(P::lane(t756, 2)), t762);
+    let t764 = P::splat(c(1.0) / t654) * t763;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t759, t764],
         &[
-            [P::lane(t230, 0), P::lane(t230, 1), P::lane(t230, 2), P::lane(t321, 0), P::lane(t321, 1), P::lane(t321, 2)],
-            [P::lane(t238, 0), P::lane(t238, 1), P::lane(t238, 2), P::lane(t299, 0), P::lane(t299, 1), P::lane(t299, 2)],
-            [P::lane(t239, 0), P::lane(t239, 1), P::lane(t239, 2), P::lane(t322, 0), P::lane(t322, 1), P::lane(t322, 2)],
-            [P::lane(t560, 0), P::lane(t560, 1), P::lane(t560, 2), P::lane(t536, 0), P::lane(t536, 1), P::lane(t536, 2)],
-            [P::lane(t561, 0), P::lane(t561, 1), P::lane(t561, 2), P::lane(t537, 0), P::lane(t537, 1), P::lane(t537, 2)],
-            [P::lane(t562, 0), P::lane(t562, 1), P::lane(t562, 2), P::lane(t538, 0), P::lane(t538, 1), P::lane(t538, 2)],
+            [t279, t268],
+            [t306, t280],
+            [t307, t281],
+            [t593, t610],
+            [t594, t611],
+            [t595, t612],
         ],
-        &[P::lane(t700, 0), P::lane(t700, 1), P::lane(t700, 2), t701, t702, t703],
+        &[P::lane(t692, 0), P::lane(t692, 1), P::lane(t692, 2), t757, t758, t761],
+        &[1, 3, 5, 0, 2, 4],
     );
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t183, 0);
+    actuator_length[0] = P::lane(t205, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t183, 1);
+    actuator_length[1] = P::lane(t197, 0);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t183, 2);
+    actuator_length[2] = P::lane(t205, 1);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t224, 0);
+    actuator_length[3] = P::lane(t197, 1);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t224, 1);
+    actuator_length[4] = P::lane(t205, 2);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t224, 2);
+    actuator_length[5] = P::lane(t197, 2);
     // leg 1: rate of the rod's extent along the actuator axis
-    actuator_velocity[0] = P::lane(t218, 0);
+    actuator_velocity[0] = P::lane(t255, 0);
     // leg 2: rate of the rod's extent along the actuator axis
-    actuator_velocity[1] = P::lane(t218, 1);
+    actuator_velocity[1] = P::lane(t236, 0);
     // leg 3: rate of the rod's extent along the actuator axis
-    actuator_velocity[2] = P::lane(t218, 2);
+    actuator_velocity[2] = P::lane(t255, 1);
     // leg 4: rate of the rod's extent along the actuator axis
-    actuator_velocity[3] = P::lane(t277, 0);
+    actuator_velocity[3] = P::lane(t236, 1);
     // leg 5: rate of the rod's extent along the actuator axis
-    actuator_velocity[4] = P::lane(t277, 1);
+    actuator_velocity[4] = P::lane(t255, 2);
     // leg 6: rate of the rod's extent along the actuator axis
-    actuator_velocity[5] = P::lane(t277, 2);
+    actuator_velocity[5] = P::lane(t236, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t230, 0);
-    jacobian_dp[0][1] = P::lane(t238, 0);
-    jacobian_dp[0][2] = P::lane(t239, 0);
+    jacobian_dp[0][0] = P::lane(t268, 0);
+    jacobian_dp[0][1] = P::lane(t280, 0);
+    jacobian_dp[0][2] = P::lane(t281, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t560, 0);
-    jacobian_dp[0][4] = P::lane(t561, 0);
-    jacobian_dp[0][5] = P::lane(t562, 0);
+    jacobian_dp[0][3] = P::lane(t610, 0);
+    jacobian_dp[0][4] = P::lane(t611, 0);
+    jacobian_dp[0][5] = P::lane(t612, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t230, 1);
-    jacobian_dp[1][1] = P::lane(t238, 1);
-    jacobian_dp[1][2] = P::lane(t239, 1);
+    jacobian_dp[1][0] = P::lane(t279, 0);
+    jacobian_dp[1][1] = P::lane(t306, 0);
+    jacobian_dp[1][2] = P::lane(t307, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t560, 1);
-    jacobian_dp[1][4] = P::lane(t561, 1);
-    jacobian_dp[1][5] = P::lane(t562, 1);
+    jacobian_dp[1][3] = P::lane(t593, 0);
+    jacobian_dp[1][4] = P::lane(t594, 0);
+    jacobian_dp[1][5] = P::lane(t595, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t230, 2);
-    jacobian_dp[2][1] = P::lane(t238, 2);
-    jacobian_dp[2][2] = P::lane(t239, 2);
+    jacobian_dp[2][0] = P::lane(t268, 1);
+    jacobian_dp[2][1] = P::lane(t280, 1);
+    jacobian_dp[2][2] = P::lane(t281, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t560, 2);
-    jacobian_dp[2][4] = P::lane(t561, 2);
-    jacobian_dp[2][5] = P::lane(t562, 2);
+    jacobian_dp[2][3] = P::lane(t610, 1);
+    jacobian_dp[2][4] = P::lane(t611, 1);
+    jacobian_dp[2][5] = P::lane(t612, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t321, 0);
-    jacobian_dp[3][1] = P::lane(t299, 0);
-    jacobian_dp[3][2] = P::lane(t322, 0);
+    jacobian_dp[3][0] = P::lane(t279, 1);
+    jacobian_dp[3][1] = P::lane(t306, 1);
+    jacobian_dp[3][2] = P::lane(t307, 1);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t536, 0);
-    jacobian_dp[3][4] = P::lane(t537, 0);
-    jacobian_dp[3][5] = P::lane(t538, 0);
+    jacobian_dp[3][3] = P::lane(t593, 1);
+    jacobian_dp[3][4] = P::lane(t594, 1);
+    jacobian_dp[3][5] = P::lane(t595, 1);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t321, 1);
-    jacobian_dp[4][1] = P::lane(t299, 1);
-    jacobian_dp[4][2] = P::lane(t322, 1);
+    jacobian_dp[4][0] = P::lane(t268, 2);
+    jacobian_dp[4][1] = P::lane(t280, 2);
+    jacobian_dp[4][2] = P::lane(t281, 2);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t536, 1);
-    jacobian_dp[4][4] = P::lane(t537, 1);
-    jacobian_dp[4][5] = P::lane(t538, 1);
+    jacobian_dp[4][3] = P::lane(t610, 2);
+    jacobian_dp[4][4] = P::lane(t611, 2);
+    jacobian_dp[4][5] = P::lane(t612, 2);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t321, 2);
-    jacobian_dp[5][1] = P::lane(t299, 2);
-    jacobian_dp[5][2] = P::lane(t322, 2);
+    jacobian_dp[5][0] = P::lane(t279, 2);
+    jacobian_dp[5][1] = P::lane(t306, 2);
+    jacobian_dp[5][2] = P::lane(t307, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t536, 2);
-    jacobian_dp[5][4] = P::lane(t537, 2);
-    jacobian_dp[5][5] = P::lane(t538, 2);
+    jacobian_dp[5][3] = P::lane(t593, 2);
+    jacobian_dp[5][4] = P::lane(t594, 2);
+    jacobian_dp[5][5] = P::lane(t595, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t636, 0);
+    mass_matrix_p[0][0] = P::lane(t548, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t519, 1);
-    mass_matrix_p[0][2] = P::lane(t519, 2);
-    mass_matrix_p[1][0] = P::lane(t519, 1);
+    mass_matrix_p[0][1] = P::lane(t464, 1);
+    mass_matrix_p[0][2] = P::lane(t464, 2);
+    mass_matrix_p[1][0] = P::lane(t464, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t609, 1);
+    mass_matrix_p[1][1] = P::lane(t524, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t583, 2);
-    mass_matrix_p[1][4] = P::lane(t550, 1);
-    mass_matrix_p[2][0] = P::lane(t519, 2);
-    mass_matrix_p[2][1] = P::lane(t583, 2);
+    mass_matrix_p[1][2] = P::lane(t508, 2);
+    mass_matrix_p[1][4] = P::lane(t557, 1);
+    mass_matrix_p[2][0] = P::lane(t464, 2);
+    mass_matrix_p[2][1] = P::lane(t508, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t663, 2);
-    mass_matrix_p[3][3] = P::lane(t666, 0);
-    mass_matrix_p[3][4] = P::lane(t666, 1);
-    mass_matrix_p[3][5] = P::lane(t666, 2);
+    mass_matrix_p[2][2] = P::lane(t579, 2);
+    mass_matrix_p[3][3] = P::lane(t707, 0);
+    mass_matrix_p[3][4] = P::lane(t707, 1);
+    mass_matrix_p[3][5] = P::lane(t707, 2);
     // mass matrix of the legs
-    mass_matrix_p[4][1] = P::lane(t550, 1);
+    mass_matrix_p[4][1] = P::lane(t557, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[4][3] = P::lane(t666, 1);
-    mass_matrix_p[4][4] = P::lane(t678, 1);
-    mass_matrix_p[4][5] = P::lane(t678, 2);
-    mass_matrix_p[5][3] = P::lane(t666, 2);
-    mass_matrix_p[5][4] = P::lane(t678, 2);
-    mass_matrix_p[5][5] = P::lane(t687, 2);
+    mass_matrix_p[4][3] = P::lane(t707, 1);
+    mass_matrix_p[4][4] = P::lane(t719, 1);
+    mass_matrix_p[4][5] = P::lane(t719, 2);
+    mass_matrix_p[5][3] = P::lane(t707, 2);
+    mass_matrix_p[5][4] = P::lane(t719, 2);
+    mass_matrix_p[5][5] = P::lane(t726, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t697, 0);
-    total_bias[1] = P::lane(t697, 1);
-    total_bias[2] = P::lane(t697, 2);
-    total_bias[3] = -P::lane(t696, 0);
-    total_bias[4] = -P::lane(t696, 1);
-    total_bias[5] = -P::lane(t696, 2);
+    total_bias[0] = P::lane(t666, 0);
+    total_bias[1] = P::lane(t666, 1);
+    total_bias[2] = P::lane(t666, 2);
+    total_bias[3] = -P::lane(t733, 0);
+    total_bias[4] = -P::lane(t733, 1);
+    total_bias[5] = -P::lane(t733, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];
@@ -35919,4 +37775,7386 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     forward_dynamics[3] = -P::lane(t628, 0);
     forward_dynamics[4] = -P::lane(t628, 1);
     forward_dynamics[5] = -P::lane(t628, 2);
+}
+
+/// What follows from the parameters alone, for \`matrices\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 76x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 76],
+) {
+    let c = T::constant;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[3] / t1;
+    let t8 = parameters.rod_inertia[4] / t2;
+    let t9 = parameters.rod_inertia[5] / t3;
+    let t10 = c(1.0) - parameters.rod_com_fraction[3];
+    let t11 = c(1.0) - parameters.rod_com_fraction[4];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[3] * t10, t7);
+    let t14 = mul_add(t11, parameters.rod_mass[4] * t11, t8);
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t4;
+    let t17 = parameters.rod_inertia[1] / t5;
+    let t18 = parameters.rod_inertia[2] / t6;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[1];
+    let t21 = c(1.0) - parameters.rod_com_fraction[2];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    let t23 = mul_add(t20, parameters.rod_mass[1] * t20, t17);
+    let t24 = mul_add(t21, parameters.rod_mass[2] * t21, t18);
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t26 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[3], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[4], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t33 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[1], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[2], t33, t18);
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t37 = neg_mul_add(t10, t25, t7);
+    prepared[20][0] = t37;
+    let t38 = neg_mul_add(t11, t26, t8);
+    prepared[20][1] = t38;
+    let t39 = neg_mul_add(t12, t27, t9);
+    prepared[20][2] = t39;
+    prepared[20][3] = t39;
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t40 = neg_mul_add(t19, t31, t16);
+    prepared[21][0] = t40;
+    let t41 = neg_mul_add(t20, t32, t17);
+    prepared[21][1] = t41;
+    let t42 = neg_mul_add(t21, t33, t18);
+    prepared[21][2] = t42;
+    prepared[21][3] = t42;
+    // second moment of payload and platform-side leg ends
+    let t43 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t44 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t45 = t44 + parameters.payload_inertia[2][2];
+    prepared[74][0] = t45;
+    let t46 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t47 = parameters.platform_point[5][0] * parameters.platform_point[5][0] * t30;
+    let t48 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t49 = parameters.platform_point[3][0] * parameters.platform_point[3][0] * t28;
+    let t50 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t51 = parameters.platform_point[4][0] * parameters.platform_point[4][0] * t29;
+    let t52 = mul_add(t34, t48, t49) + mul_add(t35, t50, t51);
+    let t53 = mul_add(t45, c(0.5), mul_add(t36, t46, t47) + t52);
+    let t54 = t53 - parameters.payload_inertia[0][0];
+    let t55 = mul_add(t43, parameters.payload_mass, t54);
+    prepared[61][0] = t55;
+    let t56 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t57 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t58 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t59 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t60 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t61 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t62 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+    let t63 = mul_add(t34, t59, t60) + mul_add(t35, t61, t62);
+    let t64 = mul_add(t45, c(0.5), mul_add(t36, t57, t58) + t63);
+    let t65 = t64 - parameters.payload_inertia[1][1];
+    let t66 = mul_add(t56, parameters.payload_mass, t65);
+    prepared[61][1] = t66;
+    let t67 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t68 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t69 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t70 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t71 = t28 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t72 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t73 = t29 * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+    let t74 = mul_add(t34, t70, t71) + mul_add(t35, t72, t73);
+    let t75 = mul_add(t45, c(0.5), mul_add(t36, t68, t69) + t74);
+    let t76 = t75 - parameters.payload_inertia[2][2];
+    let t77 = mul_add(t67, parameters.payload_mass, t76);
+    prepared[61][2] = t77;
+    prepared[61][3] = t77;
+    let t78 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t79 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t80 = parameters.platform_point[5][1] * parameters.platform_point[5][0] * t30;
+    let t81 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t82 = parameters.platform_point[3][1] * parameters.platform_point[3][0] * t28;
+    let t83 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t84 = parameters.platform_point[4][1] * parameters.platform_point[4][0] * t29;
+    let t85 = mul_add(t34, t81, t82) + mul_add(t35, t83, t84);
+    let t86 = mul_add(t36, t79, t80) + t85;
+    let t87 = mul_add(t78, parameters.payload_mass, t86);
+    prepared[68][0] = t87 - parameters.payload_inertia[0][1];
+    let t88 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t89 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t90 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t91 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t92 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t93 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t94 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+    let t95 = mul_add(t34, t91, t92) + mul_add(t35, t93, t94);
+    let t96 = mul_add(t36, t89, t90) + t95;
+    let t97 = mul_add(t88, parameters.payload_mass, t96);
+    prepared[68][1] = t97 - parameters.payload_inertia[1][2];
+    let t98 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t99 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t100 = parameters.platform_point[5][0] * parameters.platform_point[5][2] * t30;
+    let t101 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t102 = parameters.platform_point[3][0] * parameters.platform_point[3][2] * t28;
+    let t103 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t104 = parameters.platform_point[4][0] * parameters.platform_point[4][2] * t29;
+    let t105 = mul_add(t34, t101, t102) + mul_add(t35, t103, t104);
+    let t106 = mul_add(t36, t99, t100) + t105;
+    let t107 = mul_add(t98, parameters.payload_mass, t106);
+    let t108 = t107 - parameters.payload_inertia[0][2];
+    prepared[68][2] = t108;
+    prepared[68][3] = t108;
+    // their moment by platform joint and Hooke joint
+    let t109 = parameters.platform_point[3][1] * t37;
+    prepared[22][0] = t109;
+    let t110 = parameters.platform_point[4][1] * t38;
+    prepared[22][1] = t110;
+    let t111 = parameters.platform_point[5][1] * t39;
+    prepared[22][2] = t111;
+    prepared[22][3] = t111;
+    let t112 = parameters.platform_point[3][0] * t37;
+    prepared[23][0] = t112;
+    let t113 = parameters.platform_point[4][0] * t38;
+    prepared[23][1] = t113;
+    let t114 = parameters.platform_point[5][0] * t39;
+    prepared[23][2] = t114;
+    prepared[23][3] = t114;
+    let t115 = parameters.platform_point[0][1] * t40;
+    prepared[24][0] = t115;
+    let t116 = parameters.platform_point[1][1] * t41;
+    prepared[24][1] = t116;
+    let t117 = parameters.platform_point[2][1] * t42;
+    prepared[24][2] = t117;
+    prepared[24][3] = t117;
+    let t118 = parameters.platform_point[0][0] * t40;
+    prepared[25][0] = t118;
+    let t119 = parameters.platform_point[1][0] * t41;
+    prepared[25][1] = t119;
+    let t120 = parameters.platform_point[2][0] * t42;
+    prepared[25][2] = t120;
+    prepared[25][3] = t120;
+    let t121 = parameters.platform_point[3][2] * t37;
+    prepared[26][0] = t121;
+    let t122 = parameters.platform_point[4][2] * t38;
+    prepared[26][1] = t122;
+    let t123 = parameters.platform_point[5][2] * t39;
+    prepared[26][2] = t123;
+    prepared[26][3] = t123;
+    let t124 = parameters.platform_point[0][2] * t40;
+    prepared[29][0] = t124;
+    let t125 = parameters.platform_point[1][2] * t41;
+    prepared[29][1] = t125;
+    let t126 = parameters.platform_point[2][2] * t42;
+    prepared[29][2] = t126;
+    prepared[29][3] = t126;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t127 = t13 + parameters.mover_mass[3];
+    prepared[27][0] = t127;
+    let t128 = t14 + parameters.mover_mass[4];
+    prepared[27][1] = t128;
+    let t129 = t15 + parameters.mover_mass[5];
+    prepared[27][2] = t129;
+    prepared[27][3] = t129;
+    // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+    prepared[28][0] = parameters.mover_mass[3] * parameters.mover_offset[3];
+    prepared[28][1] = parameters.mover_mass[4] * parameters.mover_offset[4];
+    let t130 = parameters.mover_mass[5] * parameters.mover_offset[5];
+    prepared[28][2] = t130;
+    prepared[28][3] = t130;
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t131 = t22 + parameters.mover_mass[0];
+    prepared[30][0] = t131;
+    let t132 = t23 + parameters.mover_mass[1];
+    prepared[30][1] = t132;
+    let t133 = t24 + parameters.mover_mass[2];
+    prepared[30][2] = t133;
+    prepared[30][3] = t133;
+    // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+    prepared[31][0] = parameters.mover_mass[0] * parameters.mover_offset[0];
+    prepared[31][1] = parameters.mover_mass[1] * parameters.mover_offset[1];
+    let t134 = parameters.mover_mass[2] * parameters.mover_offset[2];
+    prepared[31][2] = t134;
+    prepared[31][3] = t134;
+    // Coriolis matrix C_b, natural factorisation
+    prepared[32][0] = parameters.actuator_axis[3][1] * t109;
+    prepared[32][1] = parameters.actuator_axis[4][1] * t110;
+    let t135 = parameters.actuator_axis[5][1] * t111;
+    prepared[32][2] = t135;
+    prepared[32][3] = t135;
+    prepared[33][0] = parameters.actuator_axis[3][0] * t109;
+    prepared[33][1] = parameters.actuator_axis[4][0] * t110;
+    let t136 = parameters.actuator_axis[5][0] * t111;
+    prepared[33][2] = t136;
+    prepared[33][3] = t136;
+    prepared[34][0] = parameters.actuator_axis[3][1] * t112;
+    prepared[34][1] = parameters.actuator_axis[4][1] * t113;
+    let t137 = parameters.actuator_axis[5][1] * t114;
+    prepared[34][2] = t137;
+    prepared[34][3] = t137;
+    prepared[35][0] = parameters.actuator_axis[0][1] * t115;
+    prepared[35][1] = parameters.actuator_axis[1][1] * t116;
+    let t138 = parameters.actuator_axis[2][1] * t117;
+    prepared[35][2] = t138;
+    prepared[35][3] = t138;
+    prepared[36][0] = parameters.actuator_axis[3][2] * t109;
+    prepared[36][1] = parameters.actuator_axis[4][2] * t110;
+    let t139 = parameters.actuator_axis[5][2] * t111;
+    prepared[36][2] = t139;
+    prepared[36][3] = t139;
+    prepared[38][0] = parameters.actuator_axis[3][0] * t112;
+    prepared[38][1] = parameters.actuator_axis[4][0] * t113;
+    let t140 = parameters.actuator_axis[5][0] * t114;
+    prepared[38][2] = t140;
+    prepared[38][3] = t140;
+    prepared[39][0] = parameters.actuator_axis[0][0] * t115;
+    prepared[39][1] = parameters.actuator_axis[1][0] * t116;
+    let t141 = parameters.actuator_axis[2][0] * t117;
+    prepared[39][2] = t141;
+    prepared[39][3] = t141;
+    prepared[40][0] = parameters.actuator_axis[0][1] * t118;
+    prepared[40][1] = parameters.actuator_axis[1][1] * t119;
+    let t142 = parameters.actuator_axis[2][1] * t120;
+    prepared[40][2] = t142;
+    prepared[40][3] = t142;
+    prepared[41][0] = parameters.actuator_axis[3][2] * t112;
+    prepared[41][1] = parameters.actuator_axis[4][2] * t113;
+    let t143 = parameters.actuator_axis[5][2] * t114;
+    prepared[41][2] = t143;
+    prepared[41][3] = t143;
+    prepared[42][0] = parameters.actuator_axis[0][2] * t115;
+    prepared[42][1] = parameters.actuator_axis[1][2] * t116;
+    let t144 = parameters.actuator_axis[2][2] * t117;
+    prepared[42][2] = t144;
+    prepared[42][3] = t144;
+    prepared[45][0] = parameters.actuator_axis[3][1] * t121;
+    prepared[45][1] = parameters.actuator_axis[4][1] * t122;
+    let t145 = parameters.actuator_axis[5][1] * t123;
+    prepared[45][2] = t145;
+    prepared[45][3] = t145;
+    prepared[46][0] = parameters.actuator_axis[0][0] * t118;
+    prepared[46][1] = parameters.actuator_axis[1][0] * t119;
+    let t146 = parameters.actuator_axis[2][0] * t120;
+    prepared[46][2] = t146;
+    prepared[46][3] = t146;
+    prepared[47][0] = parameters.actuator_axis[0][2] * t118;
+    prepared[47][1] = parameters.actuator_axis[1][2] * t119;
+    let t147 = parameters.actuator_axis[2][2] * t120;
+    prepared[47][2] = t147;
+    prepared[47][3] = t147;
+    prepared[49][0] = parameters.actuator_axis[3][0] * t121;
+    prepared[49][1] = parameters.actuator_axis[4][0] * t122;
+    let t148 = parameters.actuator_axis[5][0] * t123;
+    prepared[49][2] = t148;
+    prepared[49][3] = t148;
+    prepared[50][0] = parameters.actuator_axis[0][1] * t124;
+    prepared[50][1] = parameters.actuator_axis[1][1] * t125;
+    let t149 = parameters.actuator_axis[2][1] * t126;
+    prepared[50][2] = t149;
+    prepared[50][3] = t149;
+    prepared[51][0] = parameters.actuator_axis[3][2] * t121;
+    prepared[51][1] = parameters.actuator_axis[4][2] * t122;
+    let t150 = parameters.actuator_axis[5][2] * t123;
+    prepared[51][2] = t150;
+    prepared[51][3] = t150;
+    prepared[53][0] = parameters.actuator_axis[0][0] * t124;
+    prepared[53][1] = parameters.actuator_axis[1][0] * t125;
+    let t151 = parameters.actuator_axis[2][0] * t126;
+    prepared[53][2] = t151;
+    prepared[53][3] = t151;
+    prepared[54][0] = parameters.actuator_axis[0][2] * t124;
+    prepared[54][1] = parameters.actuator_axis[1][2] * t125;
+    let t152 = parameters.actuator_axis[2][2] * t126;
+    prepared[54][2] = t152;
+    prepared[54][3] = t152;
+    // part of the legs' mass matrix on the side of the axes
+    prepared[37][0] = parameters.actuator_axis[3][1] * t37;
+    prepared[37][1] = parameters.actuator_axis[4][1] * t38;
+    let t153 = parameters.actuator_axis[5][1] * t39;
+    prepared[37][2] = t153;
+    prepared[37][3] = t153;
+    prepared[43][0] = parameters.actuator_axis[3][0] * t37;
+    prepared[43][1] = parameters.actuator_axis[4][0] * t38;
+    let t154 = parameters.actuator_axis[5][0] * t39;
+    prepared[43][2] = t154;
+    prepared[43][3] = t154;
+    prepared[44][0] = parameters.actuator_axis[0][1] * t40;
+    prepared[44][1] = parameters.actuator_axis[1][1] * t41;
+    let t155 = parameters.actuator_axis[2][1] * t42;
+    prepared[44][2] = t155;
+    prepared[44][3] = t155;
+    prepared[48][0] = parameters.actuator_axis[0][0] * t40;
+    prepared[48][1] = parameters.actuator_axis[1][0] * t41;
+    let t156 = parameters.actuator_axis[2][0] * t42;
+    prepared[48][2] = t156;
+    prepared[48][3] = t156;
+    prepared[52][0] = parameters.actuator_axis[3][2] * t37;
+    prepared[52][1] = parameters.actuator_axis[4][2] * t38;
+    let t157 = parameters.actuator_axis[5][2] * t39;
+    prepared[52][2] = t157;
+    prepared[52][3] = t157;
+    prepared[55][0] = parameters.actuator_axis[0][2] * t40;
+    prepared[55][1] = parameters.actuator_axis[1][2] * t41;
+    let t158 = parameters.actuator_axis[2][2] * t42;
+    prepared[55][2] = t158;
+    prepared[55][3] = t158;
+    // mass matrix M_b that couples the base acceleration
+    let t159 = parameters.actuator_axis[3][2] * t127;
+    prepared[56][0] = t159;
+    let t160 = parameters.actuator_axis[4][2] * t128;
+    prepared[56][1] = t160;
+    let t161 = parameters.actuator_axis[5][2] * t129;
+    prepared[56][2] = t161;
+    prepared[56][3] = t161;
+    let t162 = parameters.actuator_axis[3][1] * t127;
+    prepared[57][0] = t162;
+    let t163 = parameters.actuator_axis[4][1] * t128;
+    prepared[57][1] = t163;
+    let t164 = parameters.actuator_axis[5][1] * t129;
+    prepared[57][2] = t164;
+    prepared[57][3] = t164;
+    let t165 = parameters.actuator_axis[3][0] * t127;
+    prepared[58][0] = t165;
+    let t166 = parameters.actuator_axis[4][0] * t128;
+    prepared[58][1] = t166;
+    let t167 = parameters.actuator_axis[5][0] * t129;
+    prepared[58][2] = t167;
+    prepared[58][3] = t167;
+    let t168 = parameters.actuator_axis[0][2] * t131;
+    prepared[59][0] = t168;
+    let t169 = parameters.actuator_axis[1][2] * t132;
+    prepared[59][1] = t169;
+    let t170 = parameters.actuator_axis[2][2] * t133;
+    prepared[59][2] = t170;
+    prepared[59][3] = t170;
+    let t171 = parameters.actuator_axis[0][1] * t131;
+    prepared[60][0] = t171;
+    let t172 = parameters.actuator_axis[1][1] * t132;
+    prepared[60][1] = t172;
+    let t173 = parameters.actuator_axis[2][1] * t133;
+    prepared[60][2] = t173;
+    prepared[60][3] = t173;
+    let t174 = parameters.actuator_axis[0][0] * t131;
+    prepared[62][0] = t174;
+    let t175 = parameters.actuator_axis[1][0] * t132;
+    prepared[62][1] = t175;
+    let t176 = parameters.actuator_axis[2][0] * t133;
+    prepared[62][2] = t176;
+    prepared[62][3] = t176;
+    let t177 = parameters.base_point[3][0] * t159;
+    prepared[63][0] = mul_sub(parameters.base_point[3][2], t165, t177);
+    let t178 = parameters.base_point[4][0] * t160;
+    prepared[63][1] = mul_sub(parameters.base_point[4][2], t166, t178);
+    let t179 = parameters.base_point[5][0] * t161;
+    let t180 = mul_sub(parameters.base_point[5][2], t167, t179);
+    prepared[63][2] = t180;
+    prepared[63][3] = t180;
+    let t181 = parameters.base_point[3][2] * t162;
+    prepared[64][0] = mul_sub(parameters.base_point[3][1], t159, t181);
+    let t182 = parameters.base_point[4][2] * t163;
+    prepared[64][1] = mul_sub(parameters.base_point[4][1], t160, t182);
+    let t183 = parameters.base_point[5][2] * t164;
+    let t184 = mul_sub(parameters.base_point[5][1], t161, t183);
+    prepared[64][2] = t184;
+    prepared[64][3] = t184;
+    let t185 = parameters.base_point[0][0] * t168;
+    prepared[65][0] = mul_sub(parameters.base_point[0][2], t174, t185);
+    let t186 = parameters.base_point[1][0] * t169;
+    prepared[65][1] = mul_sub(parameters.base_point[1][2], t175, t186);
+    let t187 = parameters.base_point[2][0] * t170;
+    let t188 = mul_sub(parameters.base_point[2][2], t176, t187);
+    prepared[65][2] = t188;
+    prepared[65][3] = t188;
+    let t189 = parameters.base_point[0][2] * t171;
+    prepared[66][0] = mul_sub(parameters.base_point[0][1], t168, t189);
+    let t190 = parameters.base_point[1][2] * t172;
+    prepared[66][1] = mul_sub(parameters.base_point[1][1], t169, t190);
+    let t191 = parameters.base_point[2][2] * t173;
+    let t192 = mul_sub(parameters.base_point[2][1], t170, t191);
+    prepared[66][2] = t192;
+    prepared[66][3] = t192;
+    let t193 = parameters.base_point[3][1] * t165;
+    prepared[67][0] = mul_sub(parameters.base_point[3][0], t162, t193);
+    let t194 = parameters.base_point[4][1] * t166;
+    prepared[67][1] = mul_sub(parameters.base_point[4][0], t163, t194);
+    let t195 = parameters.base_point[5][1] * t167;
+    let t196 = mul_sub(parameters.base_point[5][0], t164, t195);
+    prepared[67][2] = t196;
+    prepared[67][3] = t196;
+    let t197 = parameters.base_point[0][1] * t174;
+    prepared[69][0] = mul_sub(parameters.base_point[0][0], t171, t197);
+    let t198 = parameters.base_point[1][1] * t175;
+    prepared[69][1] = mul_sub(parameters.base_point[1][0], t172, t198);
+    let t199 = parameters.base_point[2][1] * t176;
+    let t200 = mul_sub(parameters.base_point[2][0], t173, t199);
+    prepared[69][2] = t200;
+    prepared[69][3] = t200;
+    let t201 = mul_add(parameters.platform_point[1][1], t41, t110);
+    let t202 = mul_add(parameters.platform_point[0][1], t40, t109) + t201;
+    prepared[74][1] = mul_add(parameters.platform_point[2][1], t42, t111) + t202;
+    let t203 = mul_add(parameters.platform_point[1][0], t41, t113);
+    let t204 = mul_add(parameters.platform_point[0][0], t40, t112) + t203;
+    prepared[74][2] = mul_add(parameters.platform_point[2][0], t42, t114) + t204;
+    let t205 = mul_add(parameters.platform_point[1][2], t41, t122);
+    let t206 = mul_add(parameters.platform_point[0][2], t40, t121) + t205;
+    prepared[74][3] = mul_add(parameters.platform_point[2][2], t42, t123) + t206;
+    prepared[75][2] = -(t37 + t40 + (t38 + t41));
+    // first moment of payload and platform-side leg ends
+    let t207 = parameters.platform_point[5][0] * t30;
+    let t208 = parameters.platform_point[3][0] * t28;
+    let t209 = parameters.platform_point[4][0] * t29;
+    let t210 = mul_add(parameters.platform_point[1][0], t35, t209);
+    let t211 = mul_add(parameters.platform_point[0][0], t34, t208) + t210;
+    let t212 = mul_add(parameters.platform_point[2][0], t36, t207) + t211;
+    prepared[70][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t212);
+    let t213 = parameters.platform_point[5][1] * t30;
+    let t214 = parameters.platform_point[3][1] * t28;
+    let t215 = parameters.platform_point[4][1] * t29;
+    let t216 = mul_add(parameters.platform_point[1][1], t35, t215);
+    let t217 = mul_add(parameters.platform_point[0][1], t34, t214) + t216;
+    let t218 = mul_add(parameters.platform_point[2][1], t36, t213) + t217;
+    prepared[70][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t218);
+    let t219 = parameters.platform_point[5][2] * t30;
+    let t220 = parameters.platform_point[3][2] * t28;
+    let t221 = parameters.platform_point[4][2] * t29;
+    let t222 = mul_add(parameters.platform_point[1][2], t35, t221);
+    let t223 = mul_add(parameters.platform_point[0][2], t34, t220) + t222;
+    let t224 = mul_add(parameters.platform_point[2][2], t36, t219) + t223;
+    let t225 = mul_add(parameters.payload_com[2], parameters.payload_mass, t224);
+    prepared[70][2] = t225;
+    prepared[70][3] = t225;
+    // mass of payload and platform-side leg ends
+    let t226 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    let t227 = parameters.payload_mass + t226;
+    prepared[71][1] = t227;
+    prepared[72][2] = t227;
+    prepared[72][3] = t227;
+    prepared[73][0] = t227;
+    // leg 3: rod's inertial coupling between its ends
+    prepared[75][0] = -t42;
+    // leg 6: rod's inertial coupling between its ends
+    prepared[75][1] = -t39;
+    // mass matrix M_p of the platform
+    prepared[75][3] = t77 + (t55 + t66);
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[3][1];
+    prepared[0][1] = parameters.platform_point[4][1];
+    prepared[0][2] = parameters.platform_point[5][1];
+    prepared[0][3] = parameters.platform_point[5][1];
+    prepared[1][0] = parameters.platform_point[0][1];
+    prepared[1][1] = parameters.platform_point[1][1];
+    prepared[1][2] = parameters.platform_point[2][1];
+    prepared[1][3] = parameters.platform_point[2][1];
+    prepared[2][0] = parameters.platform_point[3][0];
+    prepared[2][1] = parameters.platform_point[4][0];
+    prepared[2][2] = parameters.platform_point[5][0];
+    prepared[2][3] = parameters.platform_point[5][0];
+    prepared[3][0] = parameters.platform_point[0][0];
+    prepared[3][1] = parameters.platform_point[1][0];
+    prepared[3][2] = parameters.platform_point[2][0];
+    prepared[3][3] = parameters.platform_point[2][0];
+    prepared[4][0] = parameters.platform_point[3][2];
+    prepared[4][1] = parameters.platform_point[4][2];
+    prepared[4][2] = parameters.platform_point[5][2];
+    prepared[4][3] = parameters.platform_point[5][2];
+    prepared[5][0] = parameters.platform_point[0][2];
+    prepared[5][1] = parameters.platform_point[1][2];
+    prepared[5][2] = parameters.platform_point[2][2];
+    prepared[5][3] = parameters.platform_point[2][2];
+    prepared[6][0] = parameters.base_point[3][1];
+    prepared[6][1] = parameters.base_point[4][1];
+    prepared[6][2] = parameters.base_point[5][1];
+    prepared[6][3] = parameters.base_point[5][1];
+    prepared[7][0] = parameters.base_point[3][0];
+    prepared[7][1] = parameters.base_point[4][0];
+    prepared[7][2] = parameters.base_point[5][0];
+    prepared[7][3] = parameters.base_point[5][0];
+    prepared[8][0] = parameters.base_point[0][1];
+    prepared[8][1] = parameters.base_point[1][1];
+    prepared[8][2] = parameters.base_point[2][1];
+    prepared[8][3] = parameters.base_point[2][1];
+    prepared[9][0] = parameters.actuator_axis[3][1];
+    prepared[9][1] = parameters.actuator_axis[4][1];
+    prepared[9][2] = parameters.actuator_axis[5][1];
+    prepared[9][3] = parameters.actuator_axis[5][1];
+    prepared[10][0] = parameters.base_point[0][0];
+    prepared[10][1] = parameters.base_point[1][0];
+    prepared[10][2] = parameters.base_point[2][0];
+    prepared[10][3] = parameters.base_point[2][0];
+    prepared[11][0] = parameters.actuator_axis[0][1];
+    prepared[11][1] = parameters.actuator_axis[1][1];
+    prepared[11][2] = parameters.actuator_axis[2][1];
+    prepared[11][3] = parameters.actuator_axis[2][1];
+    prepared[12][0] = parameters.actuator_axis[3][0];
+    prepared[12][1] = parameters.actuator_axis[4][0];
+    prepared[12][2] = parameters.actuator_axis[5][0];
+    prepared[12][3] = parameters.actuator_axis[5][0];
+    prepared[13][0] = parameters.base_point[3][2];
+    prepared[13][1] = parameters.base_point[4][2];
+    prepared[13][2] = parameters.base_point[5][2];
+    prepared[13][3] = parameters.base_point[5][2];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[1][0];
+    prepared[14][2] = parameters.actuator_axis[2][0];
+    prepared[14][3] = parameters.actuator_axis[2][0];
+    prepared[15][0] = parameters.base_point[0][2];
+    prepared[15][1] = parameters.base_point[1][2];
+    prepared[15][2] = parameters.base_point[2][2];
+    prepared[15][3] = parameters.base_point[2][2];
+    prepared[16][0] = parameters.actuator_axis[3][2];
+    prepared[16][1] = parameters.actuator_axis[4][2];
+    prepared[16][2] = parameters.actuator_axis[5][2];
+    prepared[16][3] = parameters.actuator_axis[5][2];
+    prepared[17][0] = parameters.actuator_axis[0][2];
+    prepared[17][1] = parameters.actuator_axis[1][2];
+    prepared[17][2] = parameters.actuator_axis[2][2];
+    prepared[17][3] = parameters.actuator_axis[2][2];
+    prepared[71][0] = c(0.0);
+    prepared[71][2] = c(0.0);
+    prepared[71][3] = c(0.0);
+    prepared[72][0] = c(0.0);
+    prepared[72][1] = c(0.0);
+    prepared[73][1] = c(0.0);
+    prepared[73][2] = c(0.0);
+    prepared[73][3] = c(0.0);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `prepared`: 76x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 76],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t7, t8, t13, t68, t69, t74, t181, t182, t183, t184, t203, t204, t205, t206, t207, t208,
+        t229, t230, t273, t274, t275, t306, t307, t308, t421, t422, t445, t451, t479, t480, t483,
+        t541, t544, t546, t625, t626, t627, t648, t651, t663, t666, t689, t690, t691, t692, t715,
+        t750, t754, t755, t769, t775, t776, t777, t788, t789, t790, t791, t792, t793, t794, t800,
+        t801, t802, t803, t804, t805, t806, t807, t808, t809, t810, t811, t815, t816, t817, t818,
+        t819, t820, t821, t823, t825, t826, t827, t828, t829, t838, t839, t840, t845, t846, t847,
+        t848, t849, t850, t851, t856, t860, t862, t863, t864, t865, t866, t873, t874, t875, t878,
+        t879, t880, t881, t882, t889, t891, t900, t901, t902, t906, t907, t908, t909, t910, t911,
+        t914, t915, t916, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928, t929,
+        t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t943, t944,
+        t945, t949, t950, t951, t952, t953, t954, t955, t956, t957, t958, t959, t960, t961, t962,
+        t963, t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977,
+        t978, t979, t980, t981, t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992,
+        t993, t994, t995, t996, t997,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 = P::load(&prepared[0]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 = P::load(&prepared[1]);
+        let t15 = P::load(&prepared[2]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 = P::load(&prepared[3]);
+        let t21 = P::load(&prepared[4]);
+        let t22 = P::load(&prepared[5]);
+        let t23 = P::load(&prepared[6]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t27 = t14 * P::splat(P::lane(t16, 1));
+        let t28 = t14 * P::splat(P::lane(t16, 0));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t29 = mul_add(t15, P::splat(P::lane(t17, 0)), t25);
+        let t30 = t11 * P::splat(P::lane(t16, 2));
+        let t31 = mul_add(t15, P::splat(P::lane(t17, 1)), t26);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t32 = mul_add(t20, P::splat(P::lane(t17, 1)), t27);
+        let t33 = mul_add(t20, P::splat(P::lane(t17, 0)), t28);
+        let t34 = t14 * P::splat(P::lane(t16, 2));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t35 = mul_add(t21, P::splat(P::lane(t19, 0)), t29);
+        let t36 = mul_add(t21, P::splat(P::lane(t19, 1)), t31);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t37 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t38 = mul_add(t15, P::splat(P::lane(t17, 2)), t30);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t22, P::splat(P::lane(t19, 0)), t33);
+        let t40 = mul_add(t20, P::splat(P::lane(t17, 2)), t34);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t21, P::splat(P::lane(t19, 2)), t38);
+        // constant and copied elements
+        let t42 = P::load(&prepared[7]);
+        let t43 = P::load(&prepared[8]);
+        let t44 = P::load(&prepared[9]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t45 = P::splat(P::lane(t24, 1)) + t36 - t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t46 = mul_add(t22, P::splat(P::lane(t19, 2)), t40);
+        // legs 4, 5, 6: platform joint from the base point
+        let t47 = t35 + P::splat(P::lane(t24, 0)) - t42;
+        // legs 1, 2, 3: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t37 - t43;
+        // constant and copied elements
+        let t49 = P::load(&prepared[10]);
+        let t50 = P::load(&prepared[11]);
+        let t51 = P::load(&prepared[12]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t39 - t49;
+        // constant and copied elements
+        let t53 = P::load(&prepared[13]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t54 = P::splat(P::lane(t24, 2)) + t41 - t53;
+        // constant and copied elements
+        let t55 = P::load(&prepared[14]);
+        let t56 = P::load(&prepared[15]);
+        let t57 = P::load(&prepared[16]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t58 = P::splat(P::lane(t24, 2)) + t46 - t56;
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t59 = mul_add(t54, t57, mul_add(t47, t51, t44 * t45));
+        // constant and copied elements
+        let t60 = P::load(&prepared[17]);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t61 = P::load(&prepared[18]);
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t62 = mul_add(t58, t60, mul_add(t52, t55, t48 * t50));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t63 = P::load(&prepared[19]);
+        // angular velocity of the base
+        let t64 = t1 * P::splat(base_velocity[4]);
+        // legs 4, 5, 6: offset of the platform joint from the actuator axis
+        let t65 = neg_mul_add(t44, t59, t45);
+        let t66 = neg_mul_add(t51, t59, t47);
+        let t67 = neg_mul_add(t57, t59, t54);
+        // velocity of the platform origin relative to the base
+        let t68 = platform_velocity[1] - base_velocity[1];
+        let t69 = platform_velocity[0] - base_velocity[0];
+        // legs 1, 2, 3: offset of the platform joint from the actuator axis
+        let t70 = neg_mul_add(t50, t62, t48);
+        let t71 = neg_mul_add(t55, t62, t52);
+        let t72 = neg_mul_add(t60, t62, t58);
+        // angular velocity of the base
+        let t73 = mul_add(t2, P::splat(base_velocity[3]), t64);
+        // velocity of the platform origin relative to the base
+        let t74 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t75 = mul_add(t66, t66, t65 * t65);
+        // angular velocity of the platform
+        let t76 = t1 * P::splat(platform_velocity[4]);
+        // angular velocity of the base
+        let t77 = mul_add(t5, P::splat(base_velocity[5]), t73);
+        // velocity of the platform origin relative to the base
+        let t78 = mul_add(t2, P::splat(t69), t1 * P::splat(t68));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t79 = mul_add(t71, t71, t70 * t70);
+        // platform origin seen from the base
+        let t80 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t81 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // angular velocity of the platform
+        let t82 = mul_add(t2, P::splat(platform_velocity[3]), t76);
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t83 = sqrt(neg_mul_add(t67, t67, t61) - t75);
+        // angular velocity of the platform
+        let t84 = mul_add(t5, P::splat(platform_velocity[5]), t82);
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t85 = sqrt(neg_mul_add(t72, t72, t63) - t79);
+        // angular velocity of the base
+        let t86 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+        let t87 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+        // velocity of the platform origin relative to the base
+        let t88 = neg_mul_add(t80, t86, mul_add(t5, P::splat(t74), t78));
+        // angular velocity of the platform relative to the base
+        let t89 = t77 - t84;
+        // velocity of the platform origin relative to the base
+        let t90 = mul_add(t81, t87, t88);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t91 = neg_mul_add(t41, P::splat(P::lane(t89, 1)), P::splat(P::lane(t90, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t92 = neg_mul_add(t46, P::splat(P::lane(t89, 1)), P::splat(P::lane(t90, 0)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t93 = neg_mul_add(t35, P::splat(P::lane(t89, 2)), P::splat(P::lane(t90, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t94 = neg_mul_add(t39, P::splat(P::lane(t89, 2)), P::splat(P::lane(t90, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t95 = neg_mul_add(t36, P::splat(P::lane(t89, 0)), P::splat(P::lane(t90, 2)));
+        // legs 4, 5, 6: rod's inertial coupling between its ends
+        let t96 = P::load(&prepared[20]);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t97 = neg_mul_add(t37, P::splat(P::lane(t89, 0)), P::splat(P::lane(t90, 2)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t98 = mul_add(t36, P::splat(P::lane(t89, 2)), t91);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t99 = mul_add(t37, P::splat(P::lane(t89, 2)), t92);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t100 = mul_add(t41, P::splat(P::lane(t89, 0)), t93);
+        // legs 4, 5, 6: reciprocal of that extent
+        let t101 = w(1.0) / t83;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t102 = mul_add(t46, P::splat(P::lane(t89, 0)), t94);
+        // legs 4, 5, 6: actuator length d
+        let t103 = t59 - t83;
+        // legs 1, 2, 3: rod's inertial coupling between its ends
+        let t104 = P::load(&prepared[21]);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t105 = mul_add(t35, P::splat(P::lane(t89, 1)), t95);
+        // legs 1, 2, 3: reciprocal of that extent
+        let t106 = w(1.0) / t85;
+        // legs 1, 2, 3: actuator length d
+        let t107 = t62 - t85;
+        // first moment of the rods' couplings by the Hooke joint
+        let t108 = mul_add(t44, t103, t23);
+        // their moment by platform joint and Hooke joint
+        let t109 = P::load(&prepared[22]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t110 = mul_add(t51, t103, t42);
+        let t111 = mul_add(t50, t107, t43);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t112 = mul_add(t39, P::splat(P::lane(t89, 1)), t97);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t113 = mul_add(t65, t101, t44);
+        let t114 = mul_add(t66, t101, t51);
+        let t115 = mul_add(t67, t101, t57);
+        // their moment by platform joint and Hooke joint
+        let t116 = P::load(&prepared[23]);
+        let t117 = P::load(&prepared[24]);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t118 = mul_add(t70, t106, t50);
+        let t119 = mul_add(t71, t106, t55);
+        let t120 = mul_add(t72, t106, t60);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t121 = mul_add(t57, t105, mul_add(t51, t98, t44 * t100));
+        // first moment of the rods' couplings by the Hooke joint
+        let t122 = mul_add(t55, t107, t49);
+        let t123 = mul_add(t57, t103, t53);
+        // their moment by platform joint and Hooke joint
+        let t124 = P::load(&prepared[25]);
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t125 = mul_add(t105, t115, mul_add(t98, t114, t100 * t113));
+        // their moment by platform joint and Hooke joint
+        let t126 = mul_add(t111, t117, t108 * t109);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t127 = mul_add(t60, t112, mul_add(t55, t99, t50 * t102));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t128 = P::splat(platform_rotation[0][1]) * t11;
+        let t129 = P::splat(platform_rotation[1][1]) * t11;
+        let t130 = P::splat(platform_rotation[2][1]) * t11;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t131 = P::splat(base_rotation[0][1]) * t113;
+        // their moment by platform joint and Hooke joint
+        let t132 = P::load(&prepared[26]);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t133 = neg_mul_add(t44, t121, t100);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t134 = mul_add(t112, t120, mul_add(t99, t119, t102 * t118));
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t135 = t65 * t101;
+        // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+        let t136 = P::load(&prepared[27]);
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t137 = t121 - t125;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t138 = P::splat(P::lane(t77, 0)) * t115;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t139 = P::load(&prepared[28]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t140 = mul_add(t60, t107, t56);
+        // their moment by platform joint and Hooke joint
+        let t141 = mul_add(t111, t124, t108 * t116);
+        let t142 = mul_add(t117, t122, t109 * t110);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t143 = P::splat(platform_rotation[0][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t144 = mul_add(P::splat(platform_rotation[0][0]), t15, t128);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t145 = P::splat(platform_rotation[1][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t146 = mul_add(P::splat(platform_rotation[1][0]), t15, t129);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t147 = P::splat(platform_rotation[2][1]) * t14;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t148 = mul_add(P::splat(platform_rotation[2][0]), t15, t130);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t149 = P::splat(base_rotation[0][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t150 = mul_add(P::splat(base_rotation[0][0]), t114, t131);
+        let t151 = P::splat(base_rotation[1][1]) * t113;
+        let t152 = P::splat(base_rotation[2][1]) * t113;
+        // their moment by platform joint and Hooke joint
+        let t153 = P::load(&prepared[29]);
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t154 = neg_mul_add(t51, t121, t98);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t155 = neg_mul_add(t50, t127, t102);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t156 = t66 * t101;
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t157 = t70 * t106;
+        // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+        let t158 = P::load(&prepared[30]);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t159 = t127 - t134;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t160 = P::splat(P::lane(t77, 2)) * t113;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t161 = P::splat(P::lane(t77, 0)) * t120;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t162 = mul_sub(P::splat(P::lane(t77, 2)), t114, t138);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t163 = P::load(&prepared[31]);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t164 = mul_sub(t103, t136, t139);
+        // their moment by platform joint and Hooke joint
+        let t165 = mul_add(t122, t124, t110 * t116);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t166 = mul_add(P::splat(platform_rotation[0][0]), t20, t143);
+        let t167 = mul_add(P::splat(platform_rotation[1][0]), t20, t145);
+        let t168 = mul_add(P::splat(platform_rotation[2][0]), t20, t147);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t169 = mul_add(P::splat(base_rotation[0][0]), t119, t149);
+        let t170 = P::splat(base_rotation[1][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t171 = mul_add(P::splat(base_rotation[1][0]), t114, t151);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t172 = P::splat(base_rotation[2][1]) * t118;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t173 = mul_add(P::splat(base_rotation[2][0]), t114, t152);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t174 = P::splat(base_rotation[0][1]) * t44;
+        let t175 = P::splat(base_rotation[1][1]) * t44;
+        let t176 = P::splat(base_rotation[2][1]) * t44;
+        // their moment by platform joint and Hooke joint
+        let t177 = mul_add(t117, t140, t109 * t123);
+        let t178 = mul_add(t111, t153, t108 * t132);
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t179 = neg_mul_add(t55, t127, t99);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t180 = t71 * t106;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t181 = mul_add(P::splat(platform_rotation[0][2]), t21, t144);
+        let t182 = mul_add(P::splat(platform_rotation[1][2]), t21, t146);
+        let t183 = mul_add(P::splat(platform_rotation[2][2]), t21, t148);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t184 = mul_add(P::splat(base_rotation[0][2]), t115, t150);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t185 = P::splat(base_rotation[0][1]) * t50;
+        let t186 = P::splat(base_rotation[1][1]) * t50;
+        let t187 = P::splat(base_rotation[2][1]) * t50;
+        // legs 4, 5, 6: rate of the offset from the actuator axis
+        let t188 = neg_mul_add(t57, t121, t105);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t189 = P::splat(P::lane(t77, 2)) * t118;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t190 = mul_sub(P::splat(P::lane(t77, 1)), t115, t160);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t191 = mul_sub(P::splat(P::lane(t77, 2)), t119, t161);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t192 = mul_sub(t107, t158, t163);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t193 = t67 * t101;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t194 = mul_add(t101, neg_mul_add(t135, t137, t133), t162);
+        let t195 = P::splat(P::lane(t77, 1)) * t114;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t196 = mul_add(P::splat(base_rotation[1][0]), t119, t170);
+        let t197 = mul_add(P::splat(base_rotation[2][0]), t119, t172);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t198 = mul_add(P::splat(base_rotation[0][0]), t51, t174);
+        let t199 = mul_add(P::splat(base_rotation[1][0]), t51, t175);
+        let t200 = mul_add(P::splat(base_rotation[2][0]), t51, t176);
+        // their moment by platform joint and Hooke joint
+        let t201 = mul_add(t124, t140, t116 * t123);
+        let t202 = mul_add(t122, t153, t110 * t132);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t203 = mul_add(P::splat(platform_rotation[0][2]), t22, t166);
+        let t204 = mul_add(P::splat(platform_rotation[1][2]), t22, t167);
+        let t205 = mul_add(P::splat(platform_rotation[2][2]), t22, t168);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t206 = mul_add(P::splat(base_rotation[0][2]), t120, t169);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t207 = mul_add(P::splat(base_rotation[1][2]), t115, t171);
+        let t208 = mul_add(P::splat(base_rotation[2][2]), t115, t173);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t209 = mul_add(P::splat(base_rotation[0][0]), t55, t185);
+        let t210 = mul_add(P::splat(base_rotation[1][0]), t55, t186);
+        let t211 = mul_add(P::splat(base_rotation[2][0]), t55, t187);
+        // their moment by platform joint and Hooke joint
+        let t212 = P::lane(t126, 2) + (P::lane(t126, 1) + P::lane(t126, 0));
+        // legs 1, 2, 3: rate of the offset from the actuator axis
+        let t213 = neg_mul_add(t60, t127, t112);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t214 = mul_sub(P::splat(P::lane(t77, 1)), t120, t189);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t215 = t72 * t106;
+        // part of the legs' mass matrix on the side of the axes
+        let t216 = t136 * t184;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t217 = mul_add(t101, neg_mul_add(t137, t156, t154), t190);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t218 = mul_add(t106, neg_mul_add(t157, t159, t155), t191);
+        let t219 = P::splat(P::lane(t77, 1)) * t119;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t220 = mul_sub(P::splat(P::lane(t77, 0)), t113, t195);
+        // legs 4, 5, 6: rate of the platform lever
+        let t221 = P::splat(platform_velocity[5]) * t182;
+        let t222 = P::splat(platform_velocity[3]) * t183;
+        let t223 = P::splat(platform_velocity[4]) * t181;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t224 = mul_add(t23, t136, t44 * t164);
+        // first moment of the rods' couplings by the Hooke joint
+        let t225 = mul_add(t104, t111, t96 * t108);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t226 = P::splat(base_rotation[0][1]) * t194;
+        let t227 = P::splat(base_rotation[1][1]) * t194;
+        let t228 = P::splat(base_rotation[2][1]) * t194;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t229 = mul_add(P::splat(base_rotation[1][2]), t120, t196);
+        let t230 = mul_add(P::splat(base_rotation[2][2]), t120, t197);
+        // their moment by platform joint and Hooke joint
+        let t231 = mul_add(t140, t153, t123 * t132);
+        let t232 = P::lane(t141, 2) + (P::lane(t141, 1) + P::lane(t141, 0));
+        let t233 = P::lane(t142, 2) + (P::lane(t142, 1) + P::lane(t142, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t234 = t158 * t206;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t235 = mul_add(t106, neg_mul_add(t159, t180, t179), t214);
+        let t236 = mul_sub(P::splat(P::lane(t77, 0)), t118, t219);
+        // legs 1, 2, 3: rate of the platform lever
+        let t237 = P::splat(platform_velocity[5]) * t204;
+        // legs 4, 5, 6: rate of the platform lever
+        let t238 = mul_sub(P::splat(platform_velocity[4]), t183, t221);
+        // legs 1, 2, 3: rate of the platform lever
+        let t239 = P::splat(platform_velocity[3]) * t205;
+        // legs 4, 5, 6: rate of the platform lever
+        let t240 = mul_sub(P::splat(platform_velocity[5]), t181, t222);
+        // legs 1, 2, 3: rate of the platform lever
+        let t241 = P::splat(platform_velocity[4]) * t203;
+        // legs 4, 5, 6: rate of the platform lever
+        let t242 = mul_sub(P::splat(platform_velocity[3]), t182, t223);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t243 = mul_add(t43, t158, t50 * t192);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t244 = mul_add(t42, t136, t51 * t164);
+        let t245 = mul_add(t53, t136, t57 * t164);
+        // first moment of the rods' couplings by the Hooke joint
+        let t246 = mul_add(t104, t122, t96 * t110);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t247 = mul_add(t101, neg_mul_add(t137, t193, t188), t220);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t248 = P::splat(base_rotation[0][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t249 = mul_add(P::splat(base_rotation[0][0]), t217, t226);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t250 = P::splat(base_rotation[1][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t251 = mul_add(P::splat(base_rotation[1][0]), t217, t227);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t252 = P::splat(base_rotation[2][1]) * t218;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t253 = mul_add(P::splat(base_rotation[2][0]), t217, t228);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t254 = P::splat(P::lane(t77, 2)) * t224;
+        // Coriolis matrix C_b, natural factorisation
+        let t255 = P::load(&prepared[35]);
+        let t256 = t125 * P::load(&prepared[32]);
+        // part of the legs' mass matrix on the side of the axes
+        let t257 = P::load(&prepared[37]);
+        // their moment by platform joint and Hooke joint
+        let t258 = P::lane(t165, 2) + (P::lane(t165, 1) + P::lane(t165, 0));
+        let t259 = P::mul_add(base_rotation[0][0], t233, base_rotation[0][1] * t212);
+        // legs 4, 5, 6: rod's coupling times axis, a force at the platform joint
+        let t260 = t96 * mul_add(P::splat(base_rotation[0][2]), t57, t198);
+        let t261 = t96 * mul_add(P::splat(base_rotation[1][2]), t57, t199);
+        let t262 = t96 * mul_add(P::splat(base_rotation[2][2]), t57, t200);
+        // part of the legs' mass matrix on the side of the axes
+        let t263 = mul_add(t206, t234, t184 * t216);
+        let t264 = mul_add(t229, t234, t207 * t216);
+        let t265 = mul_add(t230, t234, t208 * t216);
+        // their moment by platform joint and Hooke joint
+        let t266 = P::lane(t177, 2) + (P::lane(t177, 1) + P::lane(t177, 0));
+        let t267 = P::lane(t178, 2) + (P::lane(t178, 1) + P::lane(t178, 0));
+        // legs 1, 2, 3: rate of the platform lever
+        let t268 = mul_sub(P::splat(platform_velocity[4]), t205, t237);
+        let t269 = mul_sub(P::splat(platform_velocity[5]), t203, t239);
+        let t270 = mul_sub(P::splat(platform_velocity[3]), t204, t241);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t271 = mul_add(t49, t158, t55 * t192);
+        let t272 = mul_add(t56, t158, t60 * t192);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t273 = mul_sub(t182, t208, t183 * t207);
+        let t274 = mul_sub(t183, t184, t181 * t208);
+        let t275 = mul_sub(t181, t207, t182 * t184);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t276 = t104 * mul_add(P::splat(base_rotation[0][2]), t60, t209);
+        let t277 = t104 * mul_add(P::splat(base_rotation[1][2]), t60, t210);
+        let t278 = t104 * mul_add(P::splat(base_rotation[2][2]), t60, t211);
+        // their moment by platform joint and Hooke joint
+        let t279 = P::mul_add(base_rotation[2][0], t233, base_rotation[2][1] * t212);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t280 = mul_add(t106, neg_mul_add(t159, t215, t213), t236);
+        let t281 = mul_add(P::splat(base_rotation[0][0]), t235, t248);
+        let t282 = mul_add(P::splat(base_rotation[1][0]), t235, t250);
+        let t283 = mul_add(P::splat(base_rotation[2][0]), t235, t252);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t284 = P::splat(P::lane(t77, 1)) * t244;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t285 = P::splat(P::lane(t77, 2)) * t243;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t286 = mul_sub(P::splat(P::lane(t77, 1)), t245, t254);
+        // Coriolis matrix C_b, natural factorisation
+        let t287 = P::load(&prepared[39]);
+        let t288 = t125 * P::load(&prepared[33]);
+        let t289 = P::load(&prepared[40]);
+        let t290 = t125 * P::load(&prepared[34]);
+        let t291 = mul_add(t134, t255, t256);
+        let t292 = P::load(&prepared[42]);
+        let t293 = t125 * P::load(&prepared[36]);
+        // part of the legs' mass matrix on the side of the axes
+        let t294 = P::load(&prepared[43]);
+        let t295 = P::load(&prepared[44]);
+        let t296 = t136 * t207;
+        let t297 = t136 * t208;
+        // first moment of the rods' couplings by the Hooke joint
+        let t298 = mul_add(t104, t140, t96 * t123);
+        // their moment by platform joint and Hooke joint
+        let t299 = P::mul_add(base_rotation[0][0], t258, base_rotation[0][1] * t232);
+        let t300 = P::mul_add(base_rotation[1][0], t233, base_rotation[1][1] * t212);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t301 = mul_add(P::splat(base_rotation[0][2]), t247, t249);
+        let t302 = mul_add(P::splat(base_rotation[1][2]), t247, t251);
+        let t303 = mul_add(P::splat(base_rotation[2][2]), t247, t253);
+        // their moment by platform joint and Hooke joint
+        let t304 = P::lane(t201, 2) + (P::lane(t201, 1) + P::lane(t201, 0));
+        let t305 = P::lane(t202, 2) + (P::lane(t202, 1) + P::lane(t202, 0));
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t306 = mul_sub(t204, t230, t205 * t229);
+        let t307 = mul_sub(t205, t206, t203 * t230);
+        let t308 = mul_sub(t203, t229, t204 * t206);
+        // their moment by platform joint and Hooke joint
+        let t309 = P::mul_add(base_rotation[2][0], t258, base_rotation[2][1] * t232);
+        // legs 1, 2, 3: moment of that force's rate
+        let t310 = P::splat(base_velocity[4]) * t276;
+        let t311 = P::splat(base_velocity[3]) * t278;
+        let t312 = P::splat(base_velocity[5]) * t277;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t313 = P::splat(P::lane(t77, 1)) * t271;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t314 = P::splat(P::lane(t77, 0)) * t245;
+        let t315 = mul_sub(P::splat(P::lane(t77, 0)), t224, t284);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t316 = mul_sub(P::splat(P::lane(t77, 1)), t272, t285);
+        // Coriolis matrix C_b, natural factorisation
+        let t317 = P::load(&prepared[46]);
+        let t318 = t125 * P::load(&prepared[38]);
+        let t319 = mul_add(t134, t287, t288);
+        let t320 = mul_add(t134, t289, t290);
+        let t321 = P::load(&prepared[47]);
+        let t322 = t125 * P::load(&prepared[41]);
+        let t323 = mul_add(t134, t292, t293);
+        // part of the legs' mass matrix on the side of the axes
+        let t324 = P::load(&prepared[48]);
+        let t325 = mul_add(t206, t295, t184 * t257);
+        let t326 = mul_add(t229, t295, t207 * t257);
+        let t327 = mul_add(t230, t295, t208 * t257);
+        let t328 = t158 * t229;
+        let t329 = t158 * t230;
+        // their moment by platform joint and Hooke joint
+        let t330 = P::mul_add(base_rotation[1][0], t258, base_rotation[1][1] * t232);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t331 = mul_add(P::splat(base_rotation[0][2]), t280, t281);
+        let t332 = mul_add(P::splat(base_rotation[1][2]), t280, t282);
+        let t333 = mul_add(P::splat(base_rotation[2][2]), t280, t283);
+        // Coriolis matrix C_b, natural factorisation
+        let t334 = P::load(&prepared[50]);
+        let t335 = t125 * P::load(&prepared[45]);
+        // legs 4, 5, 6: moment of that force
+        let t336 = mul_sub(t182, t262, t183 * t261);
+        let t337 = mul_sub(t183, t260, t181 * t262);
+        let t338 = mul_sub(t181, t261, t182 * t260);
+        // part of the legs' mass matrix on the side of the axes
+        let t339 = P::load(&prepared[52]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t340 = P::lane(t225, 2) + (P::lane(t225, 1) + P::lane(t225, 0));
+        // their moment by platform joint and Hooke joint
+        let t341 = P::mul_add(base_rotation[0][2], t304, t299);
+        // constant and copied elements
+        let t342 =
+            P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t343 = P::mul_add(base_rotation[0][0], t305, base_rotation[0][1] * t267);
+        let t344 = P::splat(P::mul_add(base_rotation[0][2], t266, t259)) * t342;
+        let t345 = P::lane(t231, 2) + (P::lane(t231, 1) + P::lane(t231, 0));
+        // legs 1, 2, 3: moment of that force's rate
+        let t346 = mul_sub(P::splat(base_velocity[3]), t277, t310);
+        let t347 = mul_sub(P::splat(base_velocity[5]), t276, t311);
+        let t348 = mul_sub(P::splat(base_velocity[4]), t278, t312);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t349 = P::splat(P::lane(t77, 0)) * t272;
+        let t350 = mul_sub(P::splat(P::lane(t77, 0)), t243, t313);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t351 = mul_sub(P::splat(P::lane(t77, 2)), t244, t314);
+        // Coriolis matrix C_b, natural factorisation
+        let t352 = mul_add(t134, t317, t318);
+        let t353 = mul_add(t134, t321, t322);
+        // part of the legs' mass matrix on the side of the axes
+        let t354 = mul_add(t206, t324, t184 * t294);
+        let t355 = mul_add(t229, t324, t207 * t294);
+        let t356 = mul_add(t230, t324, t208 * t294);
+        let t357 = mul_add(t234, t306, t216 * t273);
+        let t358 = mul_add(t234, t307, t216 * t274);
+        let t359 = mul_add(t234, t308, t216 * t275);
+        let t360 = mul_add(t229, t328, t207 * t296);
+        let t361 = mul_add(t230, t328, t208 * t296);
+        let t362 = mul_add(t306, t328, t273 * t296);
+        let t363 = mul_add(t307, t328, t274 * t296);
+        let t364 = mul_add(t308, t328, t275 * t296);
+        let t365 = mul_add(t306, t329, t273 * t297);
+        let t366 = mul_add(t307, t329, t274 * t297);
+        let t367 = mul_add(t308, t329, t275 * t297);
+        let t368 = P::triple([P::lane(t263, 0), P::lane(t264, 0), P::lane(t265, 0)]);
+        let t369 = P::triple([P::lane(t263, 1), P::lane(t264, 1), P::lane(t265, 1)]);
+        // constant and copied elements
+        let t370 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+        // their moment by platform joint and Hooke joint
+        let t371 = P::mul_add(base_rotation[2][2], t304, t309);
+        let t372 = P::mul_add(base_rotation[2][0], t305, base_rotation[2][1] * t267);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t373 = mul_add(t182, t303, mul_sub(t208, t240, t207 * t242));
+        let t374 = mul_add(t183, t301, mul_sub(t184, t242, t208 * t238));
+        let t375 = mul_add(t181, t302, mul_sub(t207, t238, t184 * t240));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t376 = mul_sub(t51, t315, t57 * t286);
+        // Coriolis matrix C_b, natural factorisation
+        let t377 = P::load(&prepared[53]);
+        let t378 = t125 * P::load(&prepared[49]);
+        let t379 = mul_add(t134, t334, t335);
+        let t380 = P::load(&prepared[54]);
+        let t381 = t125 * P::load(&prepared[51]);
+        // legs 1, 2, 3: moment of that force
+        let t382 = mul_sub(t204, t278, t205 * t277);
+        let t383 = mul_sub(t205, t276, t203 * t278);
+        let t384 = mul_sub(t203, t277, t204 * t276);
+        // part of the legs' mass matrix on the side of the axes
+        let t385 = P::load(&prepared[55]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t386 = P::lane(t246, 2) + (P::lane(t246, 1) + P::lane(t246, 0));
+        // constant and copied elements
+        let t387 =
+            P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+        // their moment by platform joint and Hooke joint
+        let t388 = P::mul_add(base_rotation[1][2], t304, t330);
+        let t389 = P::mul_add(base_rotation[1][0], t305, base_rotation[1][1] * t267);
+        let t390 = P::splat(P::mul_add(base_rotation[2][2], t266, t279)) * t342;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t391 = mul_add(t234, t331, t216 * t301);
+        let t392 = mul_add(t324, t331, t294 * t301);
+        let t393 = mul_add(t234, t332, t216 * t302);
+        let t394 = mul_add(t324, t332, t294 * t302);
+        let t395 = mul_add(t234, t333, t216 * t303);
+        let t396 = mul_add(t324, t333, t294 * t303);
+        let t397 = mul_add(t328, t331, t296 * t301);
+        let t398 = mul_add(t328, t332, t296 * t302);
+        let t399 = mul_add(t328, t333, t296 * t303);
+        let t400 = mul_add(t329, t331, t297 * t301);
+        let t401 = mul_add(t329, t332, t297 * t302);
+        let t402 = mul_add(t329, t333, t297 * t303);
+        // part of the legs' mass matrix on the side of the axes
+        let t403 = t136 * t273;
+        // their moment by platform joint and Hooke joint
+        let t404 = P::mul_add(base_rotation[0][2], t345, t343);
+        let t405 = t342 * P::splat(P::mul_add(base_rotation[1][2], t266, t300));
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t406 = mul_sub(P::splat(P::lane(t77, 2)), t271, t349);
+        // part of the legs' mass matrix on the side of the axes
+        let t407 = P::triple([P::lane(t263, 2), P::lane(t264, 2), P::lane(t265, 2)]);
+        // constant and copied elements
+        let t408 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t409 = mul_add(t204, t333, mul_sub(t230, t269, t229 * t270));
+        let t410 = mul_add(t205, t331, mul_sub(t206, t270, t230 * t268));
+        let t411 = mul_add(t203, t332, mul_sub(t229, t268, t206 * t269));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t412 = mul_sub(t57, t351, t44 * t315);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t413 = mul_sub(t55, t350, t60 * t316);
+        // Coriolis matrix C_b, natural factorisation
+        let t414 = mul_add(t134, t377, t378);
+        let t415 = mul_add(t134, t380, t381);
+        // part of the legs' mass matrix on the side of the axes
+        let t416 = mul_add(t206, t385, t184 * t339);
+        let t417 = mul_add(t229, t385, t207 * t339);
+        let t418 = mul_add(t230, t385, t208 * t339);
+        let t419 = t368 + t369 + t407;
+        // first moment of the rods' couplings by the Hooke joint
+        let t420 = mul_add(P::splat(t386), t408, P::splat(t340) * t370);
+        // their moment by platform joint and Hooke joint
+        let t421 = mul_add(P::splat(t371), t387, t390);
+        let t422 = P::mul_add(base_rotation[2][2], t345, t372);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t423 = neg_mul_add(t183, t302, t373);
+        let t424 = neg_mul_add(t181, t303, t374);
+        let t425 = neg_mul_add(t182, t301, t375);
+        // Coriolis matrix C_b, natural factorisation
+        let t426 = P::lane(t291, 2) + (P::lane(t291, 1) + P::lane(t291, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t427 = mul_add(t206, t382, t184 * t336);
+        let t428 = mul_add(t229, t382, t207 * t336);
+        let t429 = mul_add(t230, t382, t208 * t336);
+        let t430 = t158 * t306;
+        let t431 = mul_add(t206, t383, t184 * t337);
+        let t432 = mul_add(t229, t383, t207 * t337);
+        let t433 = mul_add(t230, t383, t208 * t337);
+        let t434 = mul_add(t206, t384, t184 * t338);
+        let t435 = mul_add(t229, t384, t207 * t338);
+        let t436 = mul_add(t230, t384, t208 * t338);
+        let t437 = P::triple([P::lane(t325, 0), P::lane(t326, 0), P::lane(t327, 0)]);
+        let t438 = P::triple([P::lane(t325, 1), P::lane(t326, 1), P::lane(t327, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t439 = P::lane(t298, 2) + (P::lane(t298, 1) + P::lane(t298, 0));
+        // constant and copied elements
+        let t440 =
+            P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+        // their moment by platform joint and Hooke joint
+        let t441 = P::mul_add(base_rotation[1][2], t345, t389);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t442 = mul_add(t295, t331, t257 * t301);
+        let t443 = mul_add(t295, t332, t257 * t302);
+        let t444 = mul_add(t295, t333, t257 * t303);
+        // their moment by platform joint and Hooke joint
+        let t445 = mul_add(P::splat(t404), t440, mul_add(P::splat(t341), t387, t344));
+        // legs 1, 2, 3: moment of that force's rate
+        let t446 = mul_sub(t204, t346, t205 * t347);
+        let t447 = mul_sub(t205, t348, t203 * t346);
+        let t448 = mul_sub(t203, t347, t204 * t348);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t449 = mul_sub(t60, t406, t50 * t350);
+        // Coriolis matrix C_b, natural factorisation
+        let t450 = mul_add(t134, t295, t125 * t257);
+        // constant and copied elements
+        let t451 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t452 = neg_mul_add(t205, t332, t409);
+        let t453 = neg_mul_add(t203, t333, t410);
+        let t454 = neg_mul_add(t204, t331, t411);
+        // legs 4, 5, 6: moment of that force's rate
+        let t455 = P::splat(base_velocity[4]) * t260;
+        let t456 = P::splat(base_velocity[3]) * t262;
+        let t457 = P::splat(base_velocity[5]) * t261;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t458 = mul_sub(t44, t286, t51 * t351);
+        // Coriolis matrix C_b, natural factorisation
+        let t459 = mul_add(t206, t413, t184 * t376);
+        let t460 = mul_add(t229, t413, t207 * t376);
+        let t461 = mul_add(t230, t413, t208 * t376);
+        let t462 = P::lane(t319, 2) + (P::lane(t319, 1) + P::lane(t319, 0));
+        let t463 = P::lane(t320, 2) + (P::lane(t320, 1) + P::lane(t320, 0));
+        let t464 = P::lane(t323, 2) + (P::lane(t323, 1) + P::lane(t323, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t465 = mul_add(t230, t329, t208 * t297);
+        let t466 = mul_add(t306, t430, t273 * t403);
+        let t467 = mul_add(t307, t430, t274 * t403);
+        let t468 = mul_add(t308, t430, t275 * t403);
+        let t469 = P::triple([P::lane(t354, 0), P::lane(t355, 0), P::lane(t356, 0)]);
+        let t470 = P::triple([P::lane(t354, 1), P::lane(t355, 1), P::lane(t356, 1)]);
+        let t471 = P::triple([P::lane(t325, 2), P::lane(t326, 2), P::lane(t327, 2)]);
+        let t472 = P::triple([P::lane(t357, 0), P::lane(t358, 0), P::lane(t359, 0)]);
+        let t473 = P::triple([P::lane(t357, 1), P::lane(t358, 1), P::lane(t359, 1)]);
+        let t474 = P::lane(t361, 1) + P::lane(t361, 0);
+        let t475 = P::triple([P::lane(t362, 0), P::lane(t363, 0), P::lane(t364, 0)]);
+        let t476 = P::triple([P::lane(t362, 1), P::lane(t363, 1), P::lane(t364, 1)]);
+        let t477 = P::triple([P::lane(t365, 0), P::lane(t366, 0), P::lane(t367, 0)]);
+        let t478 = P::triple([P::lane(t365, 1), P::lane(t366, 1), P::lane(t367, 1)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t479 = mul_add(P::splat(t439), t451, t420);
+        // their moment by platform joint and Hooke joint
+        let t480 = mul_add(P::splat(t422), t440, t421);
+        // mass matrix M_b that couples the base acceleration
+        let t481 = P::load(&prepared[56]);
+        // part of the legs' mass matrix on the side of the axes
+        let t482 = t437 + t438 + t471;
+        // their moment by platform joint and Hooke joint
+        let t483 = mul_add(t440, P::splat(t441), mul_add(t387, P::splat(t388), t405));
+        // mass matrix M_b that couples the base acceleration
+        let t484 = P::load(&prepared[57]);
+        // legs 1, 2, 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t485 = neg_mul_add(t158, t306, t382);
+        let t486 = neg_mul_add(t158, t307, t383);
+        let t487 = neg_mul_add(t158, t308, t384);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t488 = mul_add(t331, t385, t301 * t339);
+        let t489 = mul_add(t332, t385, t302 * t339);
+        let t490 = mul_add(t333, t385, t303 * t339);
+        let t491 = P::triple([P::lane(t391, 0), P::lane(t393, 0), P::lane(t395, 0)]);
+        let t492 = P::triple([P::lane(t391, 1), P::lane(t393, 1), P::lane(t395, 1)]);
+        let t493 = P::triple([P::lane(t397, 0), P::lane(t398, 0), P::lane(t399, 0)]);
+        let t494 = P::triple([P::lane(t397, 1), P::lane(t398, 1), P::lane(t399, 1)]);
+        let t495 = P::triple([P::lane(t400, 0), P::lane(t401, 0), P::lane(t402, 0)]);
+        let t496 = P::triple([P::lane(t400, 1), P::lane(t401, 1), P::lane(t402, 1)]);
+        let t497 = P::triple([P::lane(t392, 0), P::lane(t394, 0), P::lane(t396, 0)]);
+        let t498 = P::triple([P::lane(t392, 1), P::lane(t394, 1), P::lane(t396, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t499 = mul_add(t134, t324, t125 * t294);
+        let t500 = mul_add(t134, t385, t125 * t339);
+        let t501 = mul_add(t308, t413, t275 * t376);
+        // part of the legs' mass matrix on the side of the axes
+        let t502 = t136 * t274;
+        // legs 4, 5, 6: moment of that force's rate
+        let t503 = mul_sub(P::splat(base_velocity[3]), t261, t455);
+        let t504 = mul_sub(P::splat(base_velocity[5]), t260, t456);
+        let t505 = mul_sub(P::splat(base_velocity[4]), t262, t457);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t506 = mul_sub(t50, t316, t55 * t406);
+        // Coriolis matrix C_b, natural factorisation
+        let t507 = mul_add(t206, t449, t184 * t412);
+        let t508 = mul_add(t229, t449, t207 * t412);
+        let t509 = mul_add(t230, t449, t208 * t412);
+        let t510 = mul_add(t306, t413, t273 * t376);
+        let t511 = mul_add(t307, t413, t274 * t376);
+        let t512 = P::lane(t352, 2) + (P::lane(t352, 1) + P::lane(t352, 0));
+        let t513 = P::mul_add(platform_rotation[0][0], t463, platform_rotation[0][1] * t426);
+        let t514 = P::lane(t353, 2) + (P::lane(t353, 1) + P::lane(t353, 0));
+        let t515 = P::mul_add(platform_rotation[1][0], t463, platform_rotation[1][1] * t426);
+        // part of the legs' mass matrix on the side of the axes
+        let t516 = P::triple([P::lane(t354, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+        let t517 = P::triple([P::lane(t357, 2), P::lane(t358, 2), P::lane(t359, 2)]);
+        let t518 = P::triple([P::lane(t419, 1), P::lane(t360, 2), P::lane(t361, 2)]);
+        let t519 = P::triple([c(0.0), P::lane(t360, 1) + P::lane(t360, 0), t474]);
+        let t520 = P::triple([P::lane(t362, 2), P::lane(t363, 2), P::lane(t364, 2)]);
+        let t521 = P::triple([P::lane(t365, 2), P::lane(t366, 2), P::lane(t367, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t522 = P::load(&prepared[58]);
+        let t523 = P::load(&prepared[59]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t524 = mul_add(t234, t452, t216 * t423);
+        let t525 = mul_add(t324, t452, t294 * t423);
+        let t526 = mul_add(t234, t453, t216 * t424);
+        let t527 = mul_add(t324, t453, t294 * t424);
+        let t528 = mul_add(t234, t454, t216 * t425);
+        let t529 = mul_add(t324, t454, t294 * t425);
+        let t530 = mul_add(t329, t452, t297 * t423);
+        let t531 = mul_add(t329, t453, t297 * t424);
+        let t532 = mul_add(t329, t454, t297 * t425);
+        // Coriolis matrix C_b, natural factorisation
+        let t533 = P::lane(t379, 2) + (P::lane(t379, 1) + P::lane(t379, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t534 = mul_add(t295, t306, t257 * t273);
+        let t535 = mul_add(t295, t307, t257 * t274);
+        let t536 = mul_add(t295, t308, t257 * t275);
+        let t537 = t469 + t470 + t516;
+        let t538 = P::splat(base_rotation[0][1]) * t482;
+        let t539 = P::triple([P::lane(t416, 0), P::lane(t417, 0), P::lane(t418, 0)]);
+        let t540 = P::triple([P::lane(t416, 1), P::lane(t417, 1), P::lane(t418, 1)]);
+        let t541 = t472 + t473 + t517;
+        let t542 = t518 + t519;
+        let t543 = P::splat(base_rotation[1][1]) * t482;
+        let t544 = t475 + t476 + t520;
+        let t545 = P::splat(base_rotation[2][1]) * t482;
+        let t546 = t477 + t478 + t521;
+        // mass matrix M_b that couples the base acceleration
+        let t547 = P::load(&prepared[60]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t548 = mul_add(t328, t452, t296 * t423);
+        let t549 = mul_add(t328, t453, t296 * t424);
+        let t550 = mul_add(t328, t454, t296 * t425);
+        let t551 = P::triple([P::lane(t391, 2), P::lane(t393, 2), P::lane(t395, 2)]);
+        let t552 = P::triple([P::lane(t397, 2), P::lane(t398, 2), P::lane(t399, 2)]);
+        let t553 = P::triple([P::lane(t400, 2), P::lane(t401, 2), P::lane(t402, 2)]);
+        let t554 = P::triple([P::lane(t392, 2), P::lane(t394, 2), P::lane(t396, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t555 = mul_add(t308, t449, t275 * t412);
+        // part of the legs' mass matrix on the side of the axes
+        let t556 = mul_add(t306, t382, t273 * t336);
+        let t557 = mul_add(t307, t382, t274 * t336);
+        let t558 = mul_add(t308, t382, t275 * t336);
+        let t559 = mul_add(t306, t383, t273 * t337);
+        let t560 = t158 * t307;
+        let t561 = mul_add(t307, t383, t274 * t337);
+        let t562 = mul_add(t308, t383, t275 * t337);
+        let t563 = mul_add(t306, t384, t273 * t338);
+        let t564 = mul_add(t307, t384, t274 * t338);
+        let t565 = mul_add(t308, t384, t275 * t338);
+        let t566 = P::triple([P::lane(t427, 0), P::lane(t428, 0), P::lane(t429, 0)]);
+        let t567 = P::triple([P::lane(t427, 1), P::lane(t428, 1), P::lane(t429, 1)]);
+        let t568 = P::triple([P::lane(t431, 0), P::lane(t432, 0), P::lane(t433, 0)]);
+        let t569 = P::triple([P::lane(t431, 1), P::lane(t432, 1), P::lane(t433, 1)]);
+        let t570 = P::triple([P::lane(t434, 0), P::lane(t435, 0), P::lane(t436, 0)]);
+        let t571 = P::triple([P::lane(t434, 1), P::lane(t435, 1), P::lane(t436, 1)]);
+        // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t572 = neg_mul_add(t136, t273, t336);
+        let t573 = neg_mul_add(t136, t274, t337);
+        let t574 = neg_mul_add(t136, t275, t338);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t575 = P::triple([P::lane(t442, 0), P::lane(t443, 0), P::lane(t444, 0)]);
+        let t576 = P::triple([P::lane(t442, 1), P::lane(t443, 1), P::lane(t444, 1)]);
+        let t577 = t497 + t498 + t554;
+        // Coriolis matrix C_b, natural factorisation
+        let t578 = mul_add(t306, t449, t273 * t412);
+        let t579 = mul_add(t307, t449, t274 * t412);
+        let t580 = P::mul_add(platform_rotation[0][0], t512, platform_rotation[0][1] * t462);
+        let t581 = P::mul_add(platform_rotation[0][0], t514, platform_rotation[0][1] * t464);
+        let t582 = P::mul_add(platform_rotation[1][0], t512, platform_rotation[1][1] * t462);
+        let t583 = P::mul_add(platform_rotation[1][0], t514, platform_rotation[1][1] * t464);
+        let t584 = P::mul_add(platform_rotation[2][0], t463, platform_rotation[2][1] * t426);
+        // mass matrix M_b that couples the base acceleration
+        let t585 = P::load(&prepared[62]);
+        let t586 = P::load(&prepared[63]);
+        // Coriolis matrix C_b, natural factorisation
+        let t587 = mul_add(t206, t506, t184 * t458);
+        let t588 = mul_add(t229, t506, t207 * t458);
+        let t589 = mul_add(t230, t506, t208 * t458);
+        let t590 = P::lane(t414, 2) + (P::lane(t414, 1) + P::lane(t414, 0));
+        let t591 = P::mul_add(platform_rotation[0][2], t533, t513);
+        let t592 = P::lane(t415, 2) + (P::lane(t415, 1) + P::lane(t415, 0));
+        let t593 = base_velocity[4] * P::lane(t480, 0);
+        let t594 = P::mul_add(platform_rotation[1][2], t533, t515);
+        let t595 = base_velocity[5] * P::lane(t445, 1);
+        // part of the legs' mass matrix on the side of the axes
+        let t596 = mul_add(t306, t324, t273 * t294);
+        let t597 = mul_add(t307, t324, t274 * t294);
+        let t598 = mul_add(t308, t324, t275 * t294);
+        let t599 = mul_add(P::splat(base_rotation[0][0]), t537, t538);
+        let t600 = P::triple([P::lane(t416, 2), P::lane(t417, 2), P::lane(t418, 2)]);
+        let t601 = mul_add(P::splat(base_rotation[1][0]), t537, t543);
+        let t602 = mul_add(P::splat(base_rotation[2][0]), t537, t545);
+        // mass matrix M_b that couples the base acceleration
+        let t603 = P::load(&prepared[64]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t604 = mul_add(t295, t452, t257 * t423);
+        let t605 = mul_add(t295, t453, t257 * t424);
+        let t606 = mul_add(t295, t454, t257 * t425);
+        // part of the legs' mass matrix on the side of the axes
+        let t607 = mul_add(t307, t560, t274 * t502);
+        let t608 = mul_add(t308, t560, t275 * t502);
+        let t609 = t539 + t540 + t600;
+        let t610 = P::triple([P::lane(t427, 2), P::lane(t428, 2), P::lane(t429, 2)]);
+        let t611 = P::triple([P::lane(t466, 0), P::lane(t467, 0), P::lane(t468, 0)]);
+        let t612 = P::triple([P::lane(t466, 1), P::lane(t467, 1), P::lane(t468, 1)]);
+        let t613 = P::triple([P::lane(t431, 2), P::lane(t432, 2), P::lane(t433, 2)]);
+        let t614 = P::triple([P::lane(t434, 2), P::lane(t435, 2), P::lane(t436, 2)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t615 = P::triple([P::lane(t442, 2), P::lane(t443, 2), P::lane(t444, 2)]);
+        let t616 = neg_mul_add(P::splat(base_rotation[0][0]), t577, t491 + t492 + t551);
+        let t617 = neg_mul_add(P::splat(base_rotation[1][0]), t577, t493 + t494 + t552);
+        let t618 = neg_mul_add(P::splat(base_rotation[2][0]), t577, t495 + t496 + t553);
+        // Coriolis matrix C_b, natural factorisation
+        let t619 = mul_add(t308, t506, t275 * t458);
+        let t620 = base_velocity[4] * P::lane(t479, 0);
+        let t621 = base_velocity[3] * P::lane(t479, 2);
+        let t622 = base_velocity[5] * P::lane(t479, 1);
+        let t623 = P::mul_add(platform_rotation[2][0], t512, platform_rotation[2][1] * t462);
+        let t624 = P::mul_add(platform_rotation[2][0], t514, platform_rotation[2][1] * t464);
+        // part of the legs' mass matrix on the side of the axes
+        let t625 = t566 + t567 + t610;
+        let t626 = t568 + t569 + t613;
+        let t627 = t570 + t571 + t614;
+        // mass matrix M_b that couples the base acceleration
+        let t628 = P::load(&prepared[65]);
+        // legs 4, 5, 6: moment of that force's rate
+        let t629 = mul_sub(t182, t503, t183 * t504);
+        let t630 = mul_sub(t183, t505, t181 * t503);
+        let t631 = mul_sub(t181, t504, t182 * t505);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t632 = mul_add(t301, t572, mul_add(t331, t485, t206 * t446));
+        let t633 = mul_add(t302, t572, mul_add(t332, t485, t229 * t446));
+        let t634 = mul_add(t303, t572, mul_add(t333, t485, t230 * t446));
+        let t635 = mul_add(t301, t573, mul_add(t331, t486, t206 * t447));
+        let t636 = mul_add(t302, t573, mul_add(t332, t486, t229 * t447));
+        let t637 = mul_add(t303, t573, mul_add(t333, t486, t230 * t447));
+        let t638 = mul_add(t301, t574, mul_add(t331, t487, t206 * t448));
+        let t639 = mul_add(t302, t574, mul_add(t332, t487, t229 * t448));
+        let t640 = mul_add(t303, t574, mul_add(t333, t487, t230 * t448));
+        let t641 = P::triple([P::lane(t488, 0), P::lane(t489, 0), P::lane(t490, 0)]);
+        let t642 = P::triple([P::lane(t488, 1), P::lane(t489, 1), P::lane(t490, 1)]);
+        let t643 = t575 + t576 + t615;
+        // Coriolis matrix C_b, natural factorisation
+        let t644 = mul_add(t306, t506, t273 * t458);
+        let t645 = mul_add(t307, t506, t274 * t458);
+        let t646 = P::lane(t450, 2) + (P::lane(t450, 1) + P::lane(t450, 0));
+        let t647 = P::mul_add(platform_rotation[0][2], t590, t580);
+        let t648 = P::mul_add(platform_rotation[0][2], t592, t581);
+        let t649 = P::mul_sub(base_velocity[5], P::lane(t483, 0), t593);
+        let t650 = P::mul_add(platform_rotation[1][2], t590, t582);
+        let t651 = P::mul_add(platform_rotation[1][2], t592, t583);
+        let t652 = P::mul_add(platform_rotation[2][2], t533, t584);
+        let t653 = P::mul_sub(base_velocity[3], P::lane(t480, 1), t595);
+        let t654 = base_velocity[3] * P::lane(t483, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t655 = P::load(&prepared[66]);
+        // Coriolis matrix C_b, natural factorisation
+        let t656 = P::lane(t459, 2) + (P::lane(t459, 1) + P::lane(t459, 0));
+        let t657 = P::lane(t460, 2) + (P::lane(t460, 1) + P::lane(t460, 0));
+        let t658 = P::lane(t461, 2) + (P::lane(t461, 1) + P::lane(t461, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t659 = mul_add(t306, t385, t273 * t339);
+        let t660 = mul_add(t307, t385, t274 * t339);
+        let t661 = mul_add(t308, t385, t275 * t339);
+        let t662 = mul_add(P::splat(base_rotation[0][2]), t609, t599);
+        let t663 = mul_add(P::splat(base_rotation[1][2]), t609, t601);
+        let t664 = P::triple([P::lane(t419, 2), P::lane(t542, 2), P::lane(t465, 2)]);
+        let t665 = P::triple([c(0.0), c(0.0), P::lane(t465, 1) + P::lane(t465, 0)]);
+        let t666 = mul_add(P::splat(base_rotation[2][2]), t609, t602);
+        let t667 = P::triple([P::lane(t541, 0), P::lane(t544, 0), P::lane(t546, 0)]);
+        let t668 = P::triple([P::lane(t466, 2), P::lane(t467, 2), P::lane(t468, 2)]);
+        let t669 = P::triple([P::lane(t541, 1), P::lane(t544, 1), P::lane(t546, 1)]);
+        let t670 = P::triple([P::lane(t541, 2), P::lane(t544, 2), P::lane(t546, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t671 = P::load(&prepared[67]);
+        // legs 4, 5, 6: moment of that force by the rate of the lever
+        let t672 = mul_sub(t240, t262, t242 * t261);
+        let t673 = mul_sub(t242, t260, t238 * t262);
+        let t674 = mul_sub(t238, t261, t240 * t260);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t675 = mul_add(t385, t452, t339 * t423);
+        let t676 = mul_add(t385, t453, t339 * t424);
+        let t677 = mul_add(t385, t454, t339 * t425);
+        let t678 = P::triple([P::lane(t524, 0), P::lane(t526, 0), P::lane(t528, 0)]);
+        let t679 = P::triple([P::lane(t524, 1), P::lane(t526, 1), P::lane(t528, 1)]);
+        let t680 = P::triple([P::lane(t530, 0), P::lane(t531, 0), P::lane(t532, 0)]);
+        let t681 = P::triple([P::lane(t530, 1), P::lane(t531, 1), P::lane(t532, 1)]);
+        let t682 = P::triple([P::lane(t525, 0), P::lane(t527, 0), P::lane(t529, 0)]);
+        let t683 = P::triple([P::lane(t525, 1), P::lane(t527, 1), P::lane(t529, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t684 = P::mul_sub(base_velocity[3], P::lane(t479, 1), t620);
+        let t685 = P::mul_sub(base_velocity[5], P::lane(t479, 0), t621);
+        let t686 = P::mul_sub(base_velocity[4], P::lane(t479, 2), t622);
+        // part of the legs' mass matrix on the side of the axes
+        let t687 = P::triple([P::lane(t534, 0), P::lane(t535, 0), P::lane(t536, 0)]);
+        let t688 = P::triple([P::lane(t534, 1), P::lane(t535, 1), P::lane(t536, 1)]);
+        let t689 = t667 - t625;
+        let t690 = t611 + t612 + t668;
+        let t691 = t669 - t626;
+        let t692 = t670 - t627;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t693 = P::triple([P::lane(t548, 0), P::lane(t549, 0), P::lane(t550, 0)]);
+        let t694 = P::triple([P::lane(t548, 1), P::lane(t549, 1), P::lane(t550, 1)]);
+        let t695 = P::triple([P::lane(t488, 2), P::lane(t489, 2), P::lane(t490, 2)]);
+        let t696 = mul_sub(P::splat(base_rotation[0][1]), t643, t616);
+        let t697 = mul_sub(P::splat(base_rotation[1][1]), t643, t617);
+        let t698 = mul_sub(P::splat(base_rotation[2][1]), t643, t618);
+        // Coriolis matrix C_b, natural factorisation
+        let t699 = P::lane(t499, 2) + (P::lane(t499, 1) + P::lane(t499, 0));
+        let t700 = P::lane(t500, 2) + (P::lane(t500, 1) + P::lane(t500, 0));
+        let t701 = P::mul_add(platform_rotation[2][2], t590, t623);
+        let t702 = P::mul_add(platform_rotation[2][2], t592, t624);
+        let t703 = P::mul_sub(base_velocity[4], P::lane(t445, 2), t654);
+        let t704 = P::lane(t501, 2) + (P::lane(t501, 1) + P::lane(t501, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t705 = P::triple([P::lane(t556, 0), P::lane(t557, 0), P::lane(t558, 0)]);
+        let t706 = P::triple([P::lane(t556, 1), P::lane(t557, 1), P::lane(t558, 1)]);
+        let t707 = P::triple([P::lane(t559, 0), P::lane(t561, 0), P::lane(t562, 0)]);
+        let t708 = P::triple([P::lane(t559, 1), P::lane(t561, 1), P::lane(t562, 1)]);
+        let t709 = P::triple([P::lane(t563, 0), P::lane(t564, 0), P::lane(t565, 0)]);
+        let t710 = P::triple([P::lane(t563, 1), P::lane(t564, 1), P::lane(t565, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t711 = mul_add(t206, t547, t184 * t484);
+        let t712 = mul_add(t229, t547, t207 * t484);
+        let t713 = mul_add(t230, t547, t208 * t484);
+        let t714 = mul_add(t306, t628, t273 * t586);
+        let t715 = mul_add(t307, t628, t274 * t586);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t716 = mul_add(t184, t629, t632);
+        let t717 = mul_add(t207, t629, t633);
+        let t718 = mul_add(t208, t629, t634);
+        let t719 = mul_add(t184, t630, t635);
+        let t720 = mul_add(t207, t630, t636);
+        let t721 = mul_add(t208, t630, t637);
+        let t722 = mul_add(t184, t631, t638);
+        let t723 = mul_add(t207, t631, t639);
+        let t724 = mul_add(t208, t631, t640);
+        let t725 = t641 + t642 + t695;
+        // Coriolis matrix C_b, natural factorisation
+        let t726 = P::lane(t507, 2) + (P::lane(t507, 1) + P::lane(t507, 0));
+        let t727 = P::lane(t508, 2) + (P::lane(t508, 1) + P::lane(t508, 0));
+        let t728 = P::lane(t509, 2) + (P::lane(t509, 1) + P::lane(t509, 0));
+        let t729 = P::lane(t510, 2) + (P::lane(t510, 1) + P::lane(t510, 0));
+        let t730 = P::mul_add(base_rotation[0][0], t647, base_rotation[0][1] * t591);
+        let t731 = P::mul_add(base_rotation[1][0], t650, base_rotation[1][1] * t594);
+        let t732 = P::lane(t511, 2) + (P::lane(t511, 1) + P::lane(t511, 0));
+        // mass matrix M_b that couples the base acceleration
+        let t733 = P::load(&prepared[69]);
+        let t734 = mul_add(t306, t655, t273 * t603);
+        let t735 = mul_add(t307, t655, t274 * t603);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t736 = mul_sub(t269, t278, t270 * t277);
+        let t737 = mul_sub(t270, t276, t268 * t278);
+        let t738 = mul_sub(t268, t277, t269 * t276);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t739 = mul_add(t423, t572, mul_add(t452, t485, t306 * t446));
+        let t740 = mul_add(t424, t572, mul_add(t453, t485, t307 * t446));
+        let t741 = mul_add(t425, t572, mul_add(t454, t485, t308 * t446));
+        let t742 = mul_add(t423, t573, mul_add(t452, t486, t306 * t447));
+        let t743 = mul_add(t424, t573, mul_add(t453, t486, t307 * t447));
+        let t744 = mul_add(t425, t573, mul_add(t454, t486, t308 * t447));
+        let t745 = P::triple([P::lane(t524, 2), P::lane(t526, 2), P::lane(t528, 2)]);
+        let t746 = P::triple([P::lane(t530, 2), P::lane(t531, 2), P::lane(t532, 2)]);
+        let t747 = P::triple([P::lane(t525, 2), P::lane(t527, 2), P::lane(t529, 2)]);
+        // mass matrix M_p of the platform
+        let t748 = platform_rotation[0][1] * prepared[61][1];
+        let t749 = platform_rotation[1][1] * prepared[61][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t750 = t419 - t662;
+        let t751 = P::triple([P::lane(t596, 0), P::lane(t597, 0), P::lane(t598, 0)]);
+        let t752 = P::triple([P::lane(t596, 1), P::lane(t597, 1), P::lane(t598, 1)]);
+        let t753 = P::triple([P::lane(t534, 2), P::lane(t535, 2), P::lane(t536, 2)]);
+        let t754 = t542 - t663;
+        let t755 = t664 + t665 - t666;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t756 = mul_add(t423, t574, mul_add(t452, t487, t306 * t448));
+        let t757 = mul_add(t424, t574, mul_add(t453, t487, t307 * t448));
+        let t758 = mul_add(t425, t574, mul_add(t454, t487, t308 * t448));
+        let t759 = P::triple([P::lane(t548, 2), P::lane(t549, 2), P::lane(t550, 2)]);
+        let t760 = P::triple([P::lane(t604, 0), P::lane(t605, 0), P::lane(t606, 0)]);
+        let t761 = P::triple([P::lane(t604, 1), P::lane(t605, 1), P::lane(t606, 1)]);
+        let t762 = t682 + t683 + t747;
+        // Coriolis matrix C_b, natural factorisation
+        let t763 = P::mul_add(base_rotation[2][0], t699, base_rotation[2][1] * t646);
+        let t764 = P::mul_add(base_rotation[1][0], t699, base_rotation[1][1] * t646);
+        let t765 = P::mul_add(base_rotation[0][0], t699, base_rotation[0][1] * t646);
+        let t766 = P::lane(t555, 2) + (P::lane(t555, 1) + P::lane(t555, 0));
+        let t767 = base_velocity[3] * P::lane(t483, 0);
+        let t768 = base_velocity[3] * P::lane(t483, 1);
+        // part of the legs' mass matrix on the side of the axes
+        let t769 = mul_add(t308, t158 * t308, t275 * (t136 * t275));
+        let t770 = t687 + t688 + t753;
+        let t771 = P::triple([P::lane(t556, 2), P::lane(t557, 2), P::lane(t558, 2)]);
+        let t772 = P::lane(t608, 1) + P::lane(t608, 0);
+        let t773 = P::triple([P::lane(t559, 2), P::lane(t561, 2), P::lane(t562, 2)]);
+        let t774 = P::triple([P::lane(t563, 2), P::lane(t564, 2), P::lane(t565, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t775 = mul_add(t206, t585, t184 * t522);
+        let t776 = mul_add(t229, t585, t207 * t522);
+        let t777 = mul_add(t230, t585, t208 * t522);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t778 = mul_add(P::splat(base_rotation[0][2]), t725, t696);
+        let t779 = mul_add(P::splat(base_rotation[1][2]), t725, t697);
+        let t780 = mul_add(P::splat(base_rotation[2][2]), t725, t698);
+        // Coriolis matrix C_b, natural factorisation
+        let t781 = P::mul_add(base_rotation[0][0], t726, base_rotation[0][1] * t656);
+        let t782 = P::mul_add(base_rotation[1][0], t727, base_rotation[1][1] * t657);
+        let t783 = P::mul_add(base_rotation[2][0], t728, base_rotation[2][1] * t658);
+        let t784 = P::lane(t578, 2) + (P::lane(t578, 1) + P::lane(t578, 0));
+        let t785 = P::mul_add(base_rotation[2][0], t701, base_rotation[2][1] * t652);
+        let t786 = P::lane(t579, 2) + (P::lane(t579, 1) + P::lane(t579, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t787 = t705 + t706 + t771;
+        let t788 = t707 + t708 + t773;
+        let t789 = t709 + t710 + t774;
+        // Coriolis matrix C_b, natural factorisation
+        let t790 = P::lane(t587, 2) + (P::lane(t587, 1) + P::lane(t587, 0));
+        let t791 = P::lane(t588, 2) + (P::lane(t588, 1) + P::lane(t588, 0));
+        let t792 = P::lane(t589, 2) + (P::lane(t589, 1) + P::lane(t589, 0));
+        let t793 = t730 + P::mul_sub(base_rotation[0][2], t648, t649);
+        let t794 = t731 + P::mul_sub(base_rotation[1][2], t651, t653);
+        // mass matrix M_p of the platform
+        let t795 = platform_rotation[0][1] * prepared[68][0];
+        let t796 = P::mul_add(platform_rotation[0][0], prepared[68][0], t748);
+        let t797 = platform_rotation[1][1] * prepared[68][0];
+        let t798 = P::mul_add(platform_rotation[1][0], prepared[68][0], t749);
+        // part of the legs' mass matrix on the side of the axes
+        let t799 = P::triple([P::lane(t596, 2), P::lane(t597, 2), P::lane(t598, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t800 = mul_add(t206, t628, t184 * t586);
+        let t801 = mul_add(t229, t628, t207 * t586);
+        let t802 = mul_add(t230, t628, t208 * t586);
+        let t803 = mul_add(t306, t733, t273 * t671);
+        let t804 = mul_add(t307, t733, t274 * t671);
+        let t805 = mul_add(t308, t628, t275 * t586);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t806 = mul_add(t273, t629, t739);
+        let t807 = mul_add(t274, t629, t740);
+        let t808 = mul_add(t275, t629, t741);
+        let t809 = mul_add(t273, t630, t742);
+        let t810 = mul_add(t274, t630, t743);
+        let t811 = mul_add(t275, t630, t744);
+        let t812 = P::triple([P::lane(t604, 2), P::lane(t605, 2), P::lane(t606, 2)]);
+        let t813 = neg_mul_add(P::splat(base_rotation[0][0]), t762, t678 + t679 + t745);
+        let t814 = neg_mul_add(P::splat(base_rotation[2][0]), t762, t680 + t681 + t746);
+        // Coriolis matrix of the legs
+        let t815 = mul_add(t306, t736, t273 * t672);
+        let t816 = mul_add(t306, t737, t273 * t673);
+        let t817 = mul_add(t306, t738, t273 * t674);
+        let t818 = mul_add(t307, t736, t274 * t672);
+        let t819 = mul_add(t307, t737, t274 * t673);
+        let t820 = mul_add(t307, t738, t274 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t821 = P::mul_add(base_rotation[0][0], t650, base_rotation[0][1] * t594);
+        let t822 = P::mul_add(base_rotation[0][0], t701, base_rotation[0][1] * t652);
+        let t823 = P::mul_add(base_rotation[1][0], t647, base_rotation[1][1] * t591);
+        let t824 = P::mul_add(base_rotation[1][0], t701, base_rotation[1][1] * t652);
+        let t825 = P::mul_add(base_rotation[0][0], t766, base_rotation[0][1] * t704);
+        let t826 = P::mul_sub(base_velocity[4], P::lane(t445, 0), t767);
+        let t827 = P::mul_add(base_rotation[1][0], t766, base_rotation[1][1] * t704);
+        let t828 = P::mul_sub(base_velocity[4], P::lane(t445, 1), t768);
+        let t829 = P::mul_add(base_rotation[2][0], t766, base_rotation[2][1] * t704);
+        // mass matrix M_p of the platform
+        let t830 = platform_rotation[2][1] * prepared[61][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t831 = t751 + t752 + t799;
+        let t832 = P::triple([P::lane(t659, 0), P::lane(t660, 0), P::lane(t661, 0)]);
+        let t833 = P::triple([P::lane(t659, 1), P::lane(t660, 1), P::lane(t661, 1)]);
+        let t834 = P::splat(base_rotation[1][1]) * t770;
+        let t835 = P::splat(base_rotation[2][1]) * t770;
+        let t836 = P::triple([P::lane(t690, 1), P::lane(t607, 2), P::lane(t608, 2)]);
+        let t837 = P::triple([c(0.0), P::lane(t607, 1) + P::lane(t607, 0), t772]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t838 = mul_add(t273, t631, t756);
+        let t839 = mul_add(t274, t631, t757);
+        let t840 = mul_add(t275, t631, t758);
+        let t841 = P::triple([P::lane(t675, 0), P::lane(t676, 0), P::lane(t677, 0)]);
+        let t842 = P::triple([P::lane(t675, 1), P::lane(t676, 1), P::lane(t677, 1)]);
+        let t843 = t760 + t761 + t812;
+        let t844 = neg_mul_add(P::splat(base_rotation[1][0]), t762, t693 + t694 + t759);
+        // Coriolis matrix of the legs
+        let t845 = mul_add(t308, t736, t275 * t672);
+        let t846 = mul_add(t308, t737, t275 * t673);
+        let t847 = mul_add(t308, t738, t275 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t848 = t763 + P::mul_add(base_rotation[2][2], t700, t684);
+        let t849 = t764 + P::mul_add(base_rotation[1][2], t700, t685);
+        let t850 = t765 + P::mul_add(base_rotation[0][2], t700, t686);
+        let t851 = mul_add(t408, P::splat(t784), t370 * P::splat(t729));
+        // part of the legs' mass matrix on the side of the axes
+        let t852 = P::triple([P::lane(t689, 2), P::lane(t689, 0), P::lane(t689, 1)]);
+        // velocity of the platform origin relative to the base
+        let t853 = P::triple([t68, t74, t69]);
+        // Coriolis matrix C_b, natural factorisation
+        let t854 = base_velocity[4] * P::lane(t480, 1);
+        let t855 = base_velocity[4] * P::lane(t480, 2);
+        let t856 = mul_add(t408, P::splat(t786), t370 * P::splat(t732));
+        // part of the legs' mass matrix on the side of the axes
+        let t857 = P::triple([P::lane(t691, 2), P::lane(t691, 0), P::lane(t691, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t858 = base_velocity[5] * P::lane(t445, 0);
+        let t859 = base_velocity[5] * P::lane(t445, 2);
+        let t860 = P::lane(t619, 2) + (P::lane(t619, 1) + P::lane(t619, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t861 = P::splat(base_rotation[0][1]) * t770;
+        let t862 = t690 - t787;
+        let t863 = t836 + t837;
+        // mass matrix M_b that couples the base acceleration
+        let t864 = mul_add(t206, t523, t184 * t481);
+        let t865 = mul_add(t229, t523, t207 * t481);
+        let t866 = mul_add(t230, t523, t208 * t481);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t867 = mul_add(P::splat(base_velocity[4]), t666, t778);
+        let t868 = mul_add(P::splat(base_velocity[5]), t662, t779);
+        let t869 = mul_add(P::splat(base_velocity[3]), t663, t780);
+        // Coriolis matrix C_b, natural factorisation
+        let t870 = P::mul_add(base_rotation[0][2], t790, t781);
+        let t871 = P::mul_add(base_rotation[1][2], t791, t782);
+        let t872 = P::mul_add(base_rotation[2][2], t792, t783);
+        let t873 = P::lane(t644, 2) + (P::lane(t644, 1) + P::lane(t644, 0));
+        let t874 = t793 + t794;
+        let t875 = P::lane(t645, 2) + (P::lane(t645, 1) + P::lane(t645, 0));
+        // mass matrix M_p of the platform
+        let t876 = P::mul_add(platform_rotation[0][0], prepared[61][0], t795);
+        let t877 = P::mul_add(platform_rotation[1][0], prepared[61][0], t797);
+        // mass matrix M_b that couples the base acceleration
+        let t878 = mul_add(t206, t655, t184 * t603);
+        let t879 = mul_add(t229, t655, t207 * t603);
+        let t880 = mul_add(t230, t655, t208 * t603);
+        let t881 = mul_add(t308, t655, t275 * t603);
+        let t882 = P::lane(t715, 1) + P::lane(t715, 0);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t883 = P::triple([P::lane(t716, 0), P::lane(t717, 0), P::lane(t718, 0)]);
+        let t884 = P::triple([P::lane(t716, 1), P::lane(t717, 1), P::lane(t718, 1)]);
+        let t885 = P::triple([P::lane(t719, 0), P::lane(t720, 0), P::lane(t721, 0)]);
+        let t886 = P::triple([P::lane(t719, 1), P::lane(t720, 1), P::lane(t721, 1)]);
+        let t887 = P::triple([P::lane(t722, 0), P::lane(t723, 0), P::lane(t724, 0)]);
+        let t888 = P::triple([P::lane(t722, 1), P::lane(t723, 1), P::lane(t724, 1)]);
+        // mass matrix M_p of the platform
+        let t889 = P::mul_add(platform_rotation[0][2], prepared[68][1], t796);
+        let t890 = platform_rotation[0][1] * prepared[68][1];
+        let t891 = P::mul_add(platform_rotation[1][2], prepared[68][1], t798);
+        let t892 = platform_rotation[1][1] * prepared[68][1];
+        let t893 = platform_rotation[2][1] * prepared[68][0];
+        let t894 = P::mul_add(platform_rotation[2][0], prepared[68][0], t830);
+        // part of the legs' mass matrix on the side of the axes
+        let t895 = P::triple([P::lane(t659, 2), P::lane(t660, 2), P::lane(t661, 2)]);
+        let t896 = mul_add(P::splat(base_rotation[1][0]), t831, t834);
+        let t897 = mul_add(P::splat(base_rotation[2][0]), t831, t835);
+        let t898 = P::triple([P::lane(t662, 0), P::lane(t663, 0), P::lane(t666, 0)]);
+        let t899 = P::triple([P::lane(t787, 0), P::lane(t788, 0), P::lane(t789, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t900 = mul_add(t306, t547, t273 * t484);
+        let t901 = mul_add(t307, t547, t274 * t484);
+        let t902 = mul_add(t308, t547, t275 * t484);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t903 = P::triple([P::lane(t675, 2), P::lane(t676, 2), P::lane(t677, 2)]);
+        let t904 = mul_sub(P::splat(base_rotation[0][1]), t843, t813);
+        let t905 = mul_sub(P::splat(base_rotation[2][1]), t843, t814);
+        // Coriolis matrix C_b, natural factorisation
+        let t906 = P::mul_add(base_rotation[1][0], t726, base_rotation[1][1] * t656);
+        let t907 = P::mul_add(base_rotation[2][0], t726, base_rotation[2][1] * t656);
+        let t908 = P::mul_add(base_rotation[0][0], t727, base_rotation[0][1] * t657);
+        let t909 = P::mul_add(base_rotation[2][0], t727, base_rotation[2][1] * t657);
+        let t910 = P::mul_add(base_rotation[0][0], t728, base_rotation[0][1] * t658);
+        let t911 = P::mul_add(base_rotation[1][0], t728, base_rotation[1][1] * t658);
+        // part of the legs' mass matrix on the side of the axes
+        let t912 = P::triple([P::lane(t689, 1), P::lane(t689, 2), P::lane(t689, 0)]);
+        // velocity of the platform origin relative to the base
+        let t913 = P::triple([t74, t69, t68]);
+        // Coriolis matrix C_b, natural factorisation
+        let t914 = P::mul_add(base_rotation[0][2], t702, t822);
+        let t915 = P::mul_sub(base_velocity[5], P::lane(t483, 1), t854);
+        let t916 = P::mul_sub(base_velocity[5], P::lane(t483, 2), t855);
+        // part of the legs' mass matrix on the side of the axes
+        let t917 = P::triple([P::lane(t691, 1), P::lane(t691, 2), P::lane(t691, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t918 = P::mul_add(base_rotation[1][2], t702, t824);
+        let t919 = P::mul_sub(base_velocity[3], P::lane(t480, 0), t858);
+        let t920 = P::mul_sub(base_velocity[3], P::lane(t480, 2), t859);
+        let t921 = P::mul_sub(t74, P::lane(t692, 1), t68 * P::lane(t692, 2));
+        let t922 = P::mul_add(base_rotation[2][0], t647, base_rotation[2][1] * t591);
+        let t923 = P::mul_sub(t69, P::lane(t692, 2), t74 * P::lane(t692, 0));
+        let t924 = P::mul_add(base_rotation[2][0], t650, base_rotation[2][1] * t594);
+        let t925 = P::mul_sub(t68, P::lane(t692, 0), t69 * P::lane(t692, 1));
+        // part of the legs' mass matrix on the side of the axes
+        let t926 = mul_add(P::splat(base_rotation[0][0]), t831, t861);
+        let t927 = t832 + t833 + t895;
+        let t928 = t863 - t788;
+        // mass matrix of the legs
+        let t929 = t750 - t898;
+        let t930 = t862 - t899;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t931 = t841 + t842 + t903;
+        let t932 = mul_sub(P::splat(base_rotation[1][1]), t843, t844);
+        // Coriolis matrix of the legs
+        let t933 = mul_add(t206, t736, t184 * t672);
+        let t934 = mul_add(t206, t737, t184 * t673);
+        let t935 = mul_add(t206, t738, t184 * t674);
+        let t936 = mul_add(t230, t736, t208 * t672);
+        let t937 = mul_add(t230, t737, t208 * t673);
+        let t938 = mul_add(t230, t738, t208 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t939 = mul_sub(t912, t913, t852 * t853);
+        let t940 = t874 + (t785 + P::mul_sub(base_rotation[2][2], t702, t703));
+        let t941 = mul_sub(t913, t917, t853 * t857);
+        // mass matrix M_b that couples the base acceleration
+        let t942 = P::lane(t711, 2) + (P::lane(t711, 1) + P::lane(t711, 0));
+        let t943 = P::lane(t712, 2) + (P::lane(t712, 1) + P::lane(t712, 0));
+        let t944 = P::lane(t713, 2) + (P::lane(t713, 1) + P::lane(t713, 0));
+        let t945 = P::lane(t714, 2) + (P::lane(t714, 1) + P::lane(t714, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t946 = P::triple([P::lane(t716, 2), P::lane(t717, 2), P::lane(t718, 2)]);
+        let t947 = P::triple([P::lane(t719, 2), P::lane(t720, 2), P::lane(t721, 2)]);
+        let t948 = P::triple([P::lane(t722, 2), P::lane(t723, 2), P::lane(t724, 2)]);
+        let t949 = neg_mul_add(P::splat(base_velocity[5]), t663, t867);
+        let t950 = neg_mul_add(P::splat(base_velocity[3]), t666, t868);
+        let t951 = neg_mul_add(P::splat(base_velocity[4]), t662, t869);
+        // Coriolis matrix of the legs
+        let t952 = mul_add(t229, t736, t207 * t672);
+        let t953 = mul_add(t229, t737, t207 * t673);
+        let t954 = mul_add(t229, t738, t207 * t674);
+        // Coriolis matrix C_b, natural factorisation
+        let t955 = P::mul_add(t74, P::lane(t750, 1), t870);
+        let t956 = P::mul_add(t69, P::lane(t754, 2), t871);
+        let t957 = P::mul_add(t68, P::lane(t755, 0), t872);
+        // mass matrix M_p of the platform
+        let t958 = P::mul_add(platform_rotation[0][2], prepared[68][2], t876);
+        let t959 = P::mul_add(platform_rotation[0][0], prepared[68][2], t890);
+        let t960 = P::mul_add(platform_rotation[1][2], prepared[68][2], t877);
+        let t961 = P::mul_add(platform_rotation[1][0], prepared[68][2], t892);
+        let t962 = P::mul_add(platform_rotation[2][0], prepared[61][0], t893);
+        // mass matrix M_b that couples the base acceleration
+        let t963 = mul_add(t206, t733, t184 * t671);
+        let t964 = mul_add(t229, t733, t207 * t671);
+        let t965 = mul_add(t230, t733, t208 * t671);
+        let t966 = mul_add(t306, t585, t273 * t522);
+        let t967 = mul_add(t306, t523, t273 * t481);
+        let t968 = mul_add(t307, t585, t274 * t522);
+        let t969 = mul_add(t307, t523, t274 * t481);
+        let t970 = mul_add(t308, t585, t275 * t522);
+        let t971 = mul_add(t308, t523, t275 * t481);
+        let t972 = mul_add(t308, t733, t275 * t671);
+        let t973 = P::lane(t734, 2) + (P::lane(t734, 1) + P::lane(t734, 0));
+        let t974 = P::lane(t735, 2) + (P::lane(t735, 1) + P::lane(t735, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t975 = t883 + t884 + t946;
+        let t976 = t885 + t886 + t947;
+        let t977 = t887 + t888 + t948;
+        // Coriolis matrix C_b, natural factorisation
+        let t978 = P::mul_sub(t69, P::lane(t750, 2), t74 * P::lane(t750, 0));
+        let t979 = P::mul_sub(t68, P::lane(t750, 0), t69 * P::lane(t750, 1));
+        let t980 = P::mul_sub(t74, P::lane(t754, 1), t68 * P::lane(t754, 2));
+        let t981 = P::mul_sub(t68, P::lane(t754, 0), t69 * P::lane(t754, 1));
+        let t982 = P::mul_sub(t74, P::lane(t755, 1), t68 * P::lane(t755, 2));
+        let t983 = P::mul_sub(t69, P::lane(t755, 2), t74 * P::lane(t755, 0));
+        // mass matrix M_p of the platform
+        let t984 = P::mul_add(platform_rotation[2][2], prepared[68][1], t894);
+        let t985 = platform_rotation[2][1] * prepared[68][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t986 = mul_add(P::splat(base_rotation[1][2]), t927, t896);
+        let t987 = mul_add(P::splat(base_rotation[2][2]), t927, t897);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t988 = P::triple([P::lane(t806, 0), P::lane(t807, 0), P::lane(t808, 0)]);
+        let t989 = P::triple([P::lane(t806, 1), P::lane(t807, 1), P::lane(t808, 1)]);
+        let t990 = P::triple([P::lane(t809, 0), P::lane(t810, 0), P::lane(t811, 0)]);
+        let t991 = P::triple([P::lane(t809, 1), P::lane(t810, 1), P::lane(t811, 1)]);
+        let t992 = mul_add(P::splat(base_rotation[0][2]), t931, t904);
+        let t993 = mul_add(P::splat(base_rotation[2][2]), t931, t905);
+        // Coriolis matrix of the legs
+        let t994 = P::triple([P::lane(t815, 0), P::lane(t816, 0), P::lane(t817, 0)]);
+        let t995 = P::triple([P::lane(t815, 1), P::lane(t816, 1), P::lane(t817, 1)]);
+        let t996 = P::triple([P::lane(t818, 0), P::lane(t819, 0), P::lane(t820, 0)]);
+        let t997 = P::triple([P::lane(t818, 1), P::lane(t819, 1), P::lane(t820, 1)]);
+        (
+            t7, t8, t13, t68, t69, t74, t181, t182, t183, t184, t203, t204, t205, t206, t207, t208,
+            t229, t230, t273, t274, t275, t306, t307, t308, t421, t422, t445, t451, t479, t480,
+            t483, t541, t544, t546, t625, t626, t627, t648, t651, t663, t666, t689, t690, t691,
+            t692, t715, t750, t754, t755, t769, t775, t776, t777, t788, t789, t790, t791, t792,
+            t793, t794, t800, t801, t802, t803, t804, t805, t806, t807, t808, t809, t810, t811,
+            t815, t816, t817, t818, t819, t820, t821, t823, t825, t826, t827, t828, t829, t838,
+            t839, t840, t845, t846, t847, t848, t849, t850, t851, t856, t860, t862, t863, t864,
+            t865, t866, t873, t874, t875, t878, t879, t880, t881, t882, t889, t891, t900, t901,
+            t902, t906, t907, t908, t909, t910, t911, t914, t915, t916, t918, t919, t920, t921,
+            t922, t923, t924, t925, t926, t927, t928, t929, t930, t931, t932, t933, t934, t935,
+            t936, t937, t938, t939, t940, t941, t942, t943, t944, t945, t949, t950, t951, t952,
+            t953, t954, t955, t956, t957, t958, t959, t960, t961, t962, t963, t964, t965, t966,
+            t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977, t978, t979, t980,
+            t981, t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992, t993, t994,
+            t995, t996, t997,
+        )
+    };
+    {
+        // Coriolis matrix C_b, natural factorisation
+        let t998 = P::triple([t793, P::mul_add(base_rotation[0][2], t651, t821), t914]);
+        let t999 = P::triple([P::mul_add(base_rotation[1][2], t648, t823), t794, t918]);
+        let t1000 = t922 + P::mul_sub(base_rotation[2][2], t648, t826);
+        let t1001 = t924 + P::mul_sub(base_rotation[2][2], t651, t828);
+        // part of the legs' mass matrix on the side of the axes
+        let t1002 = mul_add(P::splat(base_rotation[0][2]), t927, t926);
+        let t1003 = P::triple([P::lane(t690, 2), P::lane(t863, 2), P::lane(t769, 2)]);
+        let t1004 = P::triple([c(0.0), c(0.0), P::lane(t769, 1) + P::lane(t769, 0)]);
+        // their moment by platform joint and Hooke joint
+        let t1005 = -t422;
+        // mass matrix M_b that couples the base acceleration
+        let t1006 = P::lane(t775, 2) + (P::lane(t775, 1) + P::lane(t775, 0));
+        let t1007 = P::lane(t776, 2) + (P::lane(t776, 1) + P::lane(t776, 0));
+        let t1008 = P::lane(t777, 2) + (P::lane(t777, 1) + P::lane(t777, 0));
+        let t1009 = base_rotation[1][1] * (P::lane(t715, 2) + t882);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1010 = P::triple([P::lane(t838, 0), P::lane(t839, 0), P::lane(t840, 0)]);
+        let t1011 = P::triple([P::lane(t838, 1), P::lane(t839, 1), P::lane(t840, 1)]);
+        let t1012 = mul_add(P::splat(base_rotation[1][2]), t931, t932);
+        // Coriolis matrix of the legs
+        let t1013 = P::triple([P::lane(t845, 0), P::lane(t846, 0), P::lane(t847, 0)]);
+        let t1014 = P::triple([P::lane(t845, 1), P::lane(t846, 1), P::lane(t847, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1015 = mul_add(t451, P::splat(t873), t851) + t939;
+        let t1016 = mul_add(t451, P::splat(t875), t856) + t941;
+        // mass matrix M_p of the platform
+        let t1017 = platform_rotation[2][1] * prepared[70][1];
+        let t1018 = platform_rotation[1][1] * prepared[70][1];
+        let t1019 = platform_rotation[0][1] * prepared[70][1];
+        // mass matrix M_b that couples the base acceleration
+        let t1020 = base_rotation[1][0] * t973;
+        let t1021 = base_rotation[2][0] * t973;
+        let t1022 = base_rotation[2][0] * t974;
+        let t1023 = P::triple([P::lane(t715, 2), t1005, P::lane(t715, 2)]);
+        // mass matrix M_p of the platform
+        let t1024 = P::mul_add(platform_rotation[0][0], t958, platform_rotation[0][1] * t889);
+        let t1025 = P::mul_add(platform_rotation[0][2], prepared[61][2], t959);
+        let t1026 = P::mul_add(platform_rotation[1][0], t960, platform_rotation[1][1] * t891);
+        let t1027 = P::mul_add(platform_rotation[1][2], prepared[61][2], t961);
+        let t1028 = P::mul_add(platform_rotation[2][2], prepared[68][2], t962);
+        let t1029 = P::mul_add(platform_rotation[2][0], prepared[68][2], t985);
+        // mass matrix M_b that couples the base acceleration
+        let t1030 = platform_rotation[2][1] * prepared[74][1];
+        let t1031 = platform_rotation[1][1] * prepared[74][1];
+        let t1032 = platform_rotation[0][1] * prepared[74][1];
+        // part of the legs' mass matrix on the side of the axes
+        let t1033 = -P::lane(t666, 1);
+        let t1034 = -P::lane(t663, 1);
+        let t1035 = -P::lane(t789, 1);
+        let t1036 = -P::lane(t788, 1);
+        // mass matrix M_b that couples the base acceleration
+        let t1037 = P::lane(t803, 2) + (P::lane(t803, 1) + P::lane(t803, 0));
+        let t1038 = P::lane(t804, 2) + (P::lane(t804, 1) + P::lane(t804, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1039 = P::triple([P::lane(t806, 2), P::lane(t807, 2), P::lane(t808, 2)]);
+        let t1040 = P::triple([P::lane(t809, 2), P::lane(t810, 2), P::lane(t811, 2)]);
+        // Coriolis matrix of the legs
+        let t1041 = P::triple([P::lane(t815, 2), P::lane(t816, 2), P::lane(t817, 2)]);
+        let t1042 = P::triple([P::lane(t818, 2), P::lane(t819, 2), P::lane(t820, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1043 = t978 + (t906 + P::mul_sub(base_rotation[1][2], t790, t848));
+        let t1044 = t979 + (t907 + P::mul_add(base_rotation[2][2], t790, t849));
+        let t1045 = t980 + (t908 + P::mul_add(base_rotation[0][2], t791, t848));
+        let t1046 = t981 + (t909 + P::mul_sub(base_rotation[2][2], t791, t850));
+        let t1047 = t982 + (t910 + P::mul_sub(base_rotation[0][2], t792, t849));
+        let t1048 = t983 + (t911 + P::mul_add(base_rotation[1][2], t792, t850));
+        let t1049 = P::mul_add(base_rotation[0][2], t860, t825) + t921 + t1000;
+        let t1050 = P::mul_add(base_rotation[1][2], t860, t827) + t923 + t1001;
+        let t1051 = P::mul_add(base_rotation[2][2], t860, t829) + t925 - t874;
+        // mass matrix M_b that couples the base acceleration
+        let t1052 = P::lane(t800, 2) + (P::lane(t800, 1) + P::lane(t800, 0));
+        let t1053 = P::lane(t801, 2) + (P::lane(t801, 1) + P::lane(t801, 0));
+        let t1054 = P::lane(t802, 2) + (P::lane(t802, 1) + P::lane(t802, 0));
+        let t1055 = P::lane(t805, 2) + (P::lane(t805, 1) + P::lane(t805, 0));
+        // mass matrix of the legs
+        let t1056 = P::triple([P::lane(t929, 1), t1034, P::lane(t754, 2)]);
+        let t1057 = P::triple([P::lane(t930, 1), t1036, P::lane(t928, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1058 = P::mul_add(base_rotation[0][0], t1006, base_rotation[0][1] * t942);
+        let t1059 = P::mul_add(base_rotation[1][0], t1007, base_rotation[1][1] * t943);
+        let t1060 = P::mul_add(base_rotation[2][0], t1008, base_rotation[2][1] * t944);
+        let t1061 = P::neg_mul_add(t13, P::lane(t689, 1), P::lane(t862, 0));
+        let t1062 = P::mul_add(base_rotation[0][0], t973, base_rotation[0][1] * t945);
+        let t1063 = P::neg_mul_add(t8, P::lane(t689, 2), P::lane(t862, 1));
+        let t1064 = P::neg_mul_add(t7, P::lane(t689, 0), P::lane(t862, 2));
+        // their moment by platform joint and Hooke joint
+        let t1065 = -P::lane(t421, 2);
+        // mass matrix M_b that couples the base acceleration
+        let t1066 = P::mul_add(base_rotation[1][0], t974, t1009);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1067 = t988 + t989 + t1039;
+        let t1068 = t990 + t991 + t1040;
+        let t1069 = P::triple([P::lane(t838, 2), P::lane(t839, 2), P::lane(t840, 2)]);
+        let t1070 = mul_add(P::splat(base_velocity[4]), t987, t992);
+        let t1071 = mul_add(P::splat(base_velocity[3]), t986, t993);
+        // Coriolis matrix of the legs
+        let t1072 = P::triple([P::lane(t845, 2), P::lane(t846, 2), P::lane(t847, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1073 = t1015 + (t998 - P::triple([t940, t915, t916]));
+        let t1074 = t1016 + (t999 - P::triple([t919, t940, t920]));
+        // mass matrix M_p of the platform
+        let t1075 = P::mul_add(platform_rotation[2][0], prepared[70][0], t1017);
+        let t1076 = P::mul_add(platform_rotation[1][0], prepared[70][0], t1018);
+        let t1077 = P::mul_add(platform_rotation[0][0], prepared[70][0], t1019);
+        // part of the legs' mass matrix on the side of the axes
+        let t1078 = t1003 + t1004 - t789;
+        // mass matrix of the legs
+        let t1079 = t1056 + P::triple([c(0.0), P::lane(t754, 1), t1033]);
+        let t1080 = t1057 + P::triple([c(0.0), P::lane(t928, 1), t1035]);
+        // mass matrix M_b that couples the base acceleration
+        let t1081 = P::lane(t864, 2) + (P::lane(t864, 1) + P::lane(t864, 0));
+        let t1082 = P::lane(t865, 2) + (P::lane(t865, 1) + P::lane(t865, 0));
+        let t1083 = P::lane(t866, 2) + (P::lane(t866, 1) + P::lane(t866, 0));
+        // their moment by platform joint and Hooke joint
+        let t1084 = P::triple([t1065, t1020, t1021]);
+        // constant and copied elements
+        let t1085 = P::triple([platform_rotation[2][2], base_rotation[1][1], base_rotation[2][1]]);
+        // mass matrix M_b that couples the base acceleration
+        let t1086 = P::lane(t483, 1) + P::lane(t445, 0);
+        let t1087 = P::mul_sub(t8, P::lane(t691, 2), t13 * P::lane(t691, 0));
+        let t1088 = P::mul_sub(t13, P::lane(t691, 1), t7 * P::lane(t691, 2));
+        let t1089 = P::mul_sub(t7, P::lane(t691, 0), t8 * P::lane(t691, 1));
+        let t1090 = P::triple([base_rotation[0][0] * t974, t1065, t1022]);
+        // constant and copied elements
+        let t1091 = P::triple([base_rotation[0][1], platform_rotation[2][2], base_rotation[2][1]]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1092 = t1010 + t1011 + t1069;
+        let t1093 = mul_add(P::splat(base_velocity[5]), t1002, t1012);
+        // Coriolis matrix of the legs
+        let t1094 = P::triple([P::lane(t933, 0), P::lane(t934, 0), P::lane(t935, 0)]);
+        let t1095 = P::triple([P::lane(t933, 1), P::lane(t934, 1), P::lane(t935, 1)]);
+        let t1096 = P::triple([P::lane(t936, 0), P::lane(t937, 0), P::lane(t938, 0)]);
+        let t1097 = P::triple([P::lane(t936, 1), P::lane(t937, 1), P::lane(t938, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1098 = P::mul_add(platform_rotation[2][0], prepared[74][2], t1030);
+        let t1099 = P::mul_add(platform_rotation[1][0], prepared[74][2], t1031);
+        let t1100 = P::mul_add(platform_rotation[0][0], prepared[74][2], t1032);
+        let t1101 = base_rotation[1][0] * t1006;
+        let t1102 = base_rotation[2][0] * t1006;
+        let t1103 = base_rotation[1][1] * t942;
+        let t1104 = base_rotation[2][1] * t942;
+        let t1105 = base_rotation[2][0] * t1007;
+        let t1106 = base_rotation[2][1] * t943;
+        let t1107 = base_rotation[1][0] * t1008;
+        let t1108 = base_rotation[1][1] * t944;
+        // their moment by platform joint and Hooke joint
+        let t1109 = mul_add(t1085, P::triple([t1005, t945, t945]), t1084);
+        // mass matrix M_b that couples the base acceleration
+        let t1110 = base_rotation[2][2] * t1037;
+        let t1111 = mul_add(t1023 + P::triple([t882, c(0.0), t882]), t1091, t1090);
+        let t1112 = base_rotation[2][2] * t1038;
+        // Coriolis matrix of the legs
+        let t1113 = P::triple([P::lane(t952, 0), P::lane(t953, 0), P::lane(t954, 0)]);
+        let t1114 = P::triple([P::lane(t952, 1), P::lane(t953, 1), P::lane(t954, 1)]);
+        // platform origin seen from the base
+        let t1115 = P::triple([t13, t8, t7]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1116 = P::triple([P::lane(t949, 1), P::lane(t949, 2), P::lane(t949, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1117 = P::triple([P::neg_mul_add(t68, P::lane(t750, 2), t955), t1043, t1044]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1118 = P::triple([P::lane(t950, 1), P::lane(t950, 2), P::lane(t950, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1119 = P::triple([t1045, P::neg_mul_add(t74, P::lane(t754, 0), t956), t1046]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1120 = P::triple([P::lane(t951, 1), P::lane(t951, 2), P::lane(t951, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1121 = P::triple([t1047, t1048, P::neg_mul_add(t69, P::lane(t755, 1), t957)]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1122 = P::triple([P::lane(t975, 1), P::lane(t975, 2), P::lane(t975, 0)]);
+        let t1123 = P::triple([P::lane(t976, 1), P::lane(t976, 2), P::lane(t976, 0)]);
+        let t1124 = P::triple([P::lane(t977, 1), P::lane(t977, 2), P::lane(t977, 0)]);
+        // mass matrix M_p of the platform
+        let t1125 = P::mul_add(platform_rotation[0][2], t1025, t1024);
+        let t1126 = P::mul_add(platform_rotation[2][0], t958, platform_rotation[2][1] * t889);
+        let t1127 = P::mul_add(platform_rotation[1][2], t1027, t1026);
+        let t1128 = P::mul_add(platform_rotation[2][0], t1028, platform_rotation[2][1] * t984);
+        let t1129 = P::mul_add(platform_rotation[2][2], prepared[61][2], t1029);
+        // mass matrix M_b that couples the base acceleration
+        let t1130 = P::lane(t878, 2) + (P::lane(t878, 1) + P::lane(t878, 0));
+        let t1131 = P::lane(t879, 2) + (P::lane(t879, 1) + P::lane(t879, 0));
+        let t1132 = P::lane(t880, 2) + (P::lane(t880, 1) + P::lane(t880, 0));
+        let t1133 = P::lane(t881, 2) + (P::lane(t881, 1) + P::lane(t881, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1134 = t541 - t1002;
+        let t1135 = t546 - t987;
+        // Coriolis matrix of the legs
+        let t1136 = t1067 + (t994 + t995 + t1041);
+        let t1137 = t1068 + (t996 + t997 + t1042);
+        // Coriolis matrix C_b, natural factorisation
+        let t1138 = neg_mul_add(t1115, t1124, P::triple([t1049, t1050, t1051]));
+        // mass matrix M_p of the platform
+        let t1139 = P::mul_add(platform_rotation[1][0], t958, platform_rotation[1][1] * t889);
+        let t1140 = P::mul_add(platform_rotation[2][0], t960, platform_rotation[2][1] * t891);
+        // mass matrix M_b that couples the base acceleration
+        let t1141 = P::lane(t900, 2) + (P::lane(t900, 1) + P::lane(t900, 0));
+        let t1142 = P::lane(t901, 2) + (P::lane(t901, 1) + P::lane(t901, 0));
+        let t1143 = P::lane(t902, 2) + (P::lane(t902, 1) + P::lane(t902, 0));
+        let t1144 = P::mul_add(base_rotation[0][2], t1037, t1062);
+        let t1145 = P::mul_add(t13, P::lane(t689, 0), t1063);
+        let t1146 = P::mul_add(t8, P::lane(t689, 1), t1064);
+        let t1147 = -t1086;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1148 = neg_mul_add(P::splat(base_velocity[5]), t986, t1070);
+        let t1149 = neg_mul_add(P::splat(base_velocity[4]), t1002, t1071);
+        // Coriolis matrix of the legs
+        let t1150 = P::triple([P::lane(t933, 2), P::lane(t934, 2), P::lane(t935, 2)]);
+        let t1151 = P::triple([P::lane(t936, 2), P::lane(t937, 2), P::lane(t938, 2)]);
+        let t1152 = t1092 + (t1013 + t1014 + t1072);
+        // mass matrix M_p of the platform
+        let t1153 = P::mul_add(platform_rotation[2][2], prepared[70][2], t1075);
+        let t1154 = P::mul_add(platform_rotation[1][2], prepared[70][2], t1076);
+        let t1155 = P::mul_add(platform_rotation[0][2], prepared[70][2], t1077);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1156 = P::splat(t8) + t203;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1157 = P::splat(t8) + t181;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1158 = P::splat(t7) + t204;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1159 = P::splat(t7) + t182;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t1160 = P::splat(t13) + t205;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t1161 = P::splat(t13) + t183;
+        // part of the legs' mass matrix on the side of the axes
+        let t1162 = t544 - t986;
+        // leg 3: rod's inertial coupling between its ends
+        let t1163 = P::triple([prepared[75][0], t1101, t1102]);
+        // leg 6: rod's inertial coupling between its ends
+        let t1164 = P::triple([prepared[75][1], t1103, t1104]);
+        // mass matrix M_b that couples the base acceleration
+        let t1165 = base_rotation[2][2] * t1081;
+        let t1166 = P::triple([base_rotation[0][1] * t943, prepared[75][1], t1106]);
+        let t1167 = base_rotation[2][2] * t1082;
+        let t1168 = P::triple([base_rotation[0][1] * t944, t1108, prepared[75][1]]);
+        let t1169 = base_rotation[1][2] * t1083;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1170 = neg_mul_add(P::splat(base_velocity[3]), t987, t1093);
+        // Coriolis matrix of the legs
+        let t1171 = P::triple([P::lane(t952, 2), P::lane(t953, 2), P::lane(t954, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t1172 = P::mul_add(base_rotation[2][0], t1130, base_rotation[2][1] * t1052);
+        let t1173 = P::mul_add(base_rotation[0][0], t1131, base_rotation[0][1] * t1053);
+        let t1174 = P::mul_add(base_rotation[1][0], t1132, base_rotation[1][1] * t1054);
+        let t1175 = P::mul_add(platform_rotation[2][2], prepared[74][3], t1098);
+        let t1176 = P::mul_add(platform_rotation[1][2], prepared[74][3], t1099);
+        let t1177 = P::mul_add(platform_rotation[0][2], prepared[74][3], t1100);
+        let t1178 = P::mul_add(base_rotation[0][0], t1133, base_rotation[0][1] * t1055);
+        let t1179 = P::mul_add(base_rotation[1][0], t1133, base_rotation[1][1] * t1055);
+        let t1180 = P::triple([base_rotation[0][0] * t1007, prepared[75][0], t1105]) + t1166;
+        let t1181 = P::triple([base_rotation[0][0] * t1008, t1107, prepared[75][0]]) + t1168;
+        // platform origin seen from the base
+        let t1182 = P::triple([t7, t13, t8]);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1183 = P::triple([P::lane(t949, 2), P::lane(t949, 0), P::lane(t949, 1)]);
+        let t1184 = P::triple([P::lane(t950, 2), P::lane(t950, 0), P::lane(t950, 1)]);
+        let t1185 = P::triple([P::lane(t951, 2), P::lane(t951, 0), P::lane(t951, 1)]);
+        let t1186 = P::triple([P::lane(t975, 2), P::lane(t975, 0), P::lane(t975, 1)]);
+        let t1187 = P::triple([P::lane(t976, 2), P::lane(t976, 0), P::lane(t976, 1)]);
+        let t1188 = P::triple([P::lane(t977, 2), P::lane(t977, 0), P::lane(t977, 1)]);
+        // mass matrix M_p of the platform
+        let t1189 = P::mul_add(platform_rotation[2][2], t1025, t1126);
+        let t1190 = P::mul_add(platform_rotation[2][2], t1129, t1128);
+        // Coriolis matrix C_p, natural factorisation
+        let t1191 = P::mul_sub(prepared[74][0], c(0.5), t1127);
+        let t1192 = P::mul_sub(prepared[74][0], c(0.5), t1125);
+        // mass matrix M_b that couples the base acceleration
+        let t1193 = P::lane(t963, 2) + (P::lane(t963, 1) + P::lane(t963, 0));
+        let t1194 = P::mul_sub(t7, P::lane(t750, 0), t8 * P::lane(t750, 1));
+        let t1195 = P::mul_sub(t13, P::lane(t754, 1), t7 * P::lane(t754, 2));
+        let t1196 = P::lane(t964, 2) + (P::lane(t964, 1) + P::lane(t964, 0));
+        let t1197 = P::lane(t965, 2) + (P::lane(t965, 1) + P::lane(t965, 0));
+        let t1198 = P::mul_sub(t8, P::lane(t755, 2), t13 * P::lane(t755, 0));
+        let t1199 = P::lane(t966, 2) + (P::lane(t966, 1) + P::lane(t966, 0));
+        let t1200 = P::lane(t967, 2) + (P::lane(t967, 1) + P::lane(t967, 0));
+        let t1201 = P::lane(t968, 2) + (P::lane(t968, 1) + P::lane(t968, 0));
+        let t1202 = P::lane(t969, 2) + (P::lane(t969, 1) + P::lane(t969, 0));
+        let t1203 = P::lane(t970, 2) + (P::lane(t970, 1) + P::lane(t970, 0));
+        let t1204 = P::lane(t971, 2) + (P::lane(t971, 1) + P::lane(t971, 0));
+        let t1205 = P::mul_sub(t13, P::lane(t692, 1), t7 * P::lane(t692, 2));
+        let t1206 = P::lane(t972, 2) + (P::lane(t972, 1) + P::lane(t972, 0));
+        let t1207 = P::mul_sub(t8, P::lane(t692, 2), t13 * P::lane(t692, 0));
+        // part of the legs' mass matrix on the side of the axes
+        let t1208 = -P::lane(t666, 2);
+        let t1209 = -P::lane(t789, 2);
+        // their moment by platform joint and Hooke joint
+        let t1210 = -P::lane(t483, 1);
+        // mass matrix M_p of the platform
+        let t1211 = P::mul_add(platform_rotation[1][2], t1025, t1139);
+        let t1212 = P::mul_add(platform_rotation[2][2], t1027, t1140);
+        // part of the legs' mass matrix on the side of the axes
+        let t1213 = P::triple([P::lane(t625, 0), P::lane(t626, 0), P::lane(t627, 0)]);
+        let t1214 = P::triple([P::lane(t625, 1), P::lane(t626, 1), P::lane(t627, 1)]);
+        // mass matrix of the legs
+        let t1215 = P::triple([P::lane(t929, 2), P::lane(t1079, 2), t1208]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1216 = P::triple([P::lane(t625, 2), P::lane(t626, 2), P::lane(t627, 2)]);
+        // mass matrix of the legs
+        let t1217 = P::triple([P::lane(t930, 2), P::lane(t1080, 2), t1209]);
+        // mass matrix M_b that couples the base acceleration
+        let t1218 = P::lane(t750, 0) - P::mul_add(base_rotation[0][2], t1081, t1058);
+        let t1219 = P::triple([prepared[75][2], base_rotation[1][2] * t1081, t1165]);
+        let t1220 = P::lane(t754, 1) - P::mul_add(base_rotation[1][2], t1082, t1059);
+        let t1221 = P::lane(t755, 2) - P::mul_add(base_rotation[2][2], t1083, t1060);
+        let t1222 = P::mul_add(t7, P::lane(t689, 2), t1061) - t1144;
+        // their moment by platform joint and Hooke joint
+        let t1223 = P::triple([-P::lane(t445, 0), t1145, t1146]);
+        // mass matrix M_b that couples the base acceleration
+        let t1224 = P::lane(t928, 1) - t1087 - P::mul_add(base_rotation[1][2], t1038, t1066);
+        let t1225 = P::triple([P::lane(t928, 0) - t1088, t1210, P::lane(t928, 2) - t1089]);
+        // Coriolis matrix of the legs
+        let t1226 = t1148 + (t1094 + t1095 + t1150);
+        let t1227 = t1149 + (t1096 + t1097 + t1151);
+        // mass matrix M_b that couples the base acceleration
+        let t1228 = P::mul_add(base_rotation[0][0], t1130, base_rotation[0][1] * t1052);
+        let t1229 = P::mul_add(base_rotation[1][0], t1131, base_rotation[1][1] * t1053);
+        let t1230 = P::mul_add(base_rotation[2][0], t1132, base_rotation[2][1] * t1054);
+        // mass matrix of the legs
+        let t1231 = t1134 - t1213;
+        let t1232 = t1162 - t1214;
+        let t1233 = t1135 - t1216;
+        // mass matrix M_b that couples the base acceleration
+        let t1234 = t1180 + P::triple([base_rotation[0][2] * t1082, prepared[75][2], t1167]);
+        let t1235 = t1181 + P::triple([base_rotation[0][2] * t1083, t1169, prepared[75][2]]);
+        let t1236 = t1223 - (t1109 + P::triple([t1147, base_rotation[1][2] * t1037, t1110]));
+        let t1237 = t1225 - (t1111 + P::triple([base_rotation[0][2] * t1038, t1147, t1112]));
+        // Coriolis matrix of the legs
+        let t1238 = t1170 + (t1113 + t1114 + t1171);
+        // mass matrix M_b that couples the base acceleration
+        let t1239 = P::mul_sub(t13, P::lane(t750, 1), t7 * P::lane(t750, 2));
+        let t1240 = P::mul_sub(t8, P::lane(t750, 2), t13 * P::lane(t750, 0));
+        let t1241 = P::mul_add(base_rotation[1][0], t1130, base_rotation[1][1] * t1052);
+        let t1242 = P::mul_sub(t8, P::lane(t754, 2), t13 * P::lane(t754, 0));
+        let t1243 = P::mul_sub(t7, P::lane(t754, 0), t8 * P::lane(t754, 1));
+        let t1244 = P::mul_add(base_rotation[2][0], t1131, base_rotation[2][1] * t1053);
+        let t1245 = P::mul_sub(t13, P::lane(t755, 1), t7 * P::lane(t755, 2));
+        let t1246 = P::mul_add(base_rotation[0][0], t1132, base_rotation[0][1] * t1054);
+        let t1247 = P::mul_sub(t7, P::lane(t755, 0), t8 * P::lane(t755, 1));
+        let t1248 = P::mul_add(base_rotation[1][0], t1199, base_rotation[1][1] * t1141);
+        let t1249 = P::mul_add(base_rotation[2][0], t1199, base_rotation[2][1] * t1141);
+        let t1250 = P::mul_add(base_rotation[0][0], t1201, base_rotation[0][1] * t1142);
+        let t1251 = P::mul_add(base_rotation[2][0], t1201, base_rotation[2][1] * t1142);
+        let t1252 = P::mul_add(base_rotation[0][0], t1203, base_rotation[0][1] * t1143);
+        let t1253 = P::mul_add(base_rotation[1][0], t1203, base_rotation[1][1] * t1143);
+        let t1254 = P::mul_sub(t7, P::lane(t692, 0), t8 * P::lane(t692, 1));
+        let t1255 = P::mul_add(base_rotation[2][0], t1133, base_rotation[2][1] * t1055);
+        // their moment by platform joint and Hooke joint
+        let t1256 = -P::lane(t445, 1);
+        let t1257 = -P::lane(t445, 2);
+        // Coriolis matrix C_p, natural factorisation
+        let t1258 = P::mul_add(platform_velocity[5], t1191, P::lane(t1136, 1));
+        let t1259 = P::mul_sub(prepared[74][0], c(0.5), t1190);
+        let t1260 = P::mul_add(platform_velocity[5], t1189, P::lane(t1137, 2));
+        let t1261 = P::mul_add(platform_velocity[4], t1192, P::lane(t1152, 0));
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1262 = mul_sub(t230, t1158, t229 * t1160);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1263 = mul_sub(t208, t1159, t207 * t1161);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1264 = mul_sub(t206, t1160, t230 * t1156);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1265 = mul_sub(t184, t1161, t208 * t1157);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t1266 = mul_sub(t229, t1156, t206 * t1158);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t1267 = mul_sub(t207, t1157, t184 * t1159);
+        // mass matrix M_p of the platform
+        let t1268 = P::load(&prepared[71]);
+        // mass matrix of the legs
+        let t1269 = P::load(&prepared[72]);
+        // mass matrix M_b that couples the base acceleration
+        let t1270 = P::triple([t1218, P::lane(t750, 1), P::lane(t750, 2)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t1271 = P::triple([P::lane(t754, 0), t1220, P::lane(t754, 2)]);
+        let t1272 = P::triple([P::lane(t755, 0), P::lane(t755, 1), t1221]);
+        // their moment by platform joint and Hooke joint
+        let t1273 = P::triple([-P::lane(t483, 0), t1224, -P::lane(t483, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t1274 = t1148 + mul_add(t1182, t1183, neg_mul_add(t1115, t1116, t1117));
+        let t1275 = t1170 + mul_add(t1182, t1184, neg_mul_add(t1115, t1118, t1119));
+        let t1276 = t1149 + mul_add(t1182, t1185, neg_mul_add(t1115, t1120, t1121));
+        let t1277 = t1067 + mul_add(t1182, t1186, neg_mul_add(t1115, t1122, t1073));
+        let t1278 = t1068 + mul_add(t1182, t1187, neg_mul_add(t1115, t1123, t1074));
+        let t1279 = t1092 + mul_add(t1182, t1188, t1138);
+        // Coriolis matrix C_p, natural factorisation
+        let t1280 = P::mul_sub(platform_velocity[3], t1154, platform_velocity[4] * t1155);
+        let t1281 = P::mul_sub(platform_velocity[5], t1155, platform_velocity[3] * t1153);
+        let t1282 = P::mul_sub(platform_velocity[4], t1153, platform_velocity[5] * t1154);
+        let t1283 = P::mul_sub(platform_velocity[5], t1211, P::lane(t1136, 0));
+        let t1284 = P::neg_mul_add(platform_velocity[5], t1212, P::lane(t1136, 2));
+        let t1285 = P::neg_mul_add(platform_velocity[5], t1192, P::lane(t1137, 0));
+        let t1286 = P::mul_sub(platform_velocity[3], t1212, P::lane(t1137, 1));
+        let t1287 = P::neg_mul_add(platform_velocity[4], t1211, P::lane(t1152, 1));
+        let t1288 = P::mul_sub(platform_velocity[4], t1189, P::lane(t1152, 2));
+        // mass matrix of the legs
+        let t1289 = t1079 + t1268;
+        let t1290 = t1215 + P::triple([c(0.0), c(0.0), P::lane(t755, 2)]) + t1269;
+        // mass matrix M_b that couples the base acceleration
+        let t1291 = t1270 - (t1163 + t1164 + t1219);
+        let t1292 = t1271 - t1234;
+        let t1293 = t1272 - t1235;
+        let t1294 = t1236 + P::triple([t1222, t1256, t1257]);
+        let t1295 = t1237 + t1273;
+        let t1296 = P::mul_add(base_rotation[0][0], t1199, base_rotation[0][1] * t1141);
+        let t1297 = P::mul_add(base_rotation[1][0], t1201, base_rotation[1][1] * t1142);
+        let t1298 = P::mul_add(base_rotation[2][0], t1203, base_rotation[2][1] * t1143);
+        // mass of payload and platform-side leg ends
+        let t1299 = P::load(&prepared[73]);
+        // mass matrix M_p of the platform
+        let t1300 = prepared[75][3] - t1190;
+        // mass matrix M_b that couples the base acceleration
+        let t1301 = P::neg_mul_add(base_rotation[1][2], t1193, P::lane(t479, 2)) - t1241;
+        let t1302 = P::lane(t1134, 2) - t1194 - P::mul_add(base_rotation[2][2], t1193, t1172);
+        let t1303 = P::lane(t1162, 0) - t1195 - P::mul_add(base_rotation[0][2], t1196, t1173);
+        let t1304 = P::neg_mul_add(base_rotation[2][2], t1196, P::lane(t479, 0)) - t1244;
+        let t1305 = P::neg_mul_add(base_rotation[0][2], t1197, P::lane(t479, 1)) - t1246;
+        let t1306 = P::lane(t1135, 1) - t1198 - P::mul_add(base_rotation[1][2], t1197, t1174);
+        let t1307 = P::neg_mul_add(base_rotation[1][2], t1200, P::lane(t689, 1)) - t1248;
+        let t1308 = P::neg_mul_add(base_rotation[2][2], t1200, t1176) - t1249;
+        let t1309 = P::neg_mul_add(base_rotation[0][2], t1202, t1175) - t1250;
+        let t1310 = P::neg_mul_add(base_rotation[2][2], t1202, P::lane(t691, 2)) - t1251;
+        let t1311 = P::neg_mul_add(base_rotation[0][2], t1204, P::lane(t692, 0)) - t1252;
+        let t1312 = P::neg_mul_add(base_rotation[1][2], t1204, t1177) - t1253;
+        let t1313 = P::lane(t1078, 0) - t1205 - P::mul_add(base_rotation[0][2], t1206, t1178);
+        let t1314 = P::lane(t1078, 1) - t1207 - P::mul_add(base_rotation[1][2], t1206, t1179);
+        let t1315 = P::neg_mul_add(base_rotation[2][2], t1206, t1086) - t1255;
+        // mass matrix M_p of the platform
+        let t1316 = t1153 + P::lane(t1231, 1);
+        mass_matrix_p[0][4] = t1316;
+        mass_matrix_p[4][0] = t1316;
+        let t1317 = P::lane(t1231, 2) - t1154;
+        mass_matrix_p[0][5] = t1317;
+        mass_matrix_p[5][0] = t1317;
+        let t1318 = P::lane(t1232, 0) - t1153;
+        mass_matrix_p[1][3] = t1318;
+        mass_matrix_p[3][1] = t1318;
+        let t1319 = t1155 + P::lane(t1232, 2);
+        mass_matrix_p[1][5] = t1319;
+        mass_matrix_p[5][1] = t1319;
+        let t1320 = t1154 + P::lane(t1233, 0);
+        mass_matrix_p[2][3] = t1320;
+        mass_matrix_p[3][2] = t1320;
+        let t1321 = P::lane(t1233, 1) - t1155;
+        mass_matrix_p[2][4] = t1321;
+        mass_matrix_p[4][2] = t1321;
+        let t1322 = P::lane(t930, 1) - t1211;
+        mass_matrix_p[3][4] = t1322;
+        mass_matrix_p[4][3] = t1322;
+        let t1323 = P::lane(t930, 2) - t1189;
+        mass_matrix_p[3][5] = t1323;
+        mass_matrix_p[5][3] = t1323;
+        let t1324 = P::lane(t1080, 2) - t1212;
+        mass_matrix_p[4][5] = t1324;
+        mass_matrix_p[5][4] = t1324;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t1325 = -P::lane(t949, 1);
+        coriolis_matrix_p[0][1] = t1325;
+        coriolis_matrix_b[0][1] = t1325;
+        let t1326 = -P::lane(t949, 2);
+        coriolis_matrix_p[0][2] = t1326;
+        coriolis_matrix_b[0][2] = t1326;
+        let t1327 = -P::lane(t949, 0);
+        coriolis_matrix_p[0][0] = t1327;
+        coriolis_matrix_b[0][0] = t1327;
+        let t1328 = -P::lane(t950, 1);
+        coriolis_matrix_p[1][1] = t1328;
+        coriolis_matrix_b[1][1] = t1328;
+        let t1329 = -P::lane(t950, 2);
+        coriolis_matrix_p[1][2] = t1329;
+        coriolis_matrix_b[1][2] = t1329;
+        let t1330 = -P::lane(t950, 0);
+        coriolis_matrix_p[1][0] = t1330;
+        coriolis_matrix_b[1][0] = t1330;
+        let t1331 = -P::lane(t951, 1);
+        coriolis_matrix_p[2][1] = t1331;
+        coriolis_matrix_b[2][1] = t1331;
+        let t1332 = -P::lane(t951, 2);
+        coriolis_matrix_p[2][2] = t1332;
+        coriolis_matrix_b[2][2] = t1332;
+        let t1333 = -P::lane(t951, 0);
+        coriolis_matrix_p[2][0] = t1333;
+        coriolis_matrix_b[2][0] = t1333;
+        let t1334 = -P::lane(t975, 1);
+        coriolis_matrix_p[3][1] = t1334;
+        coriolis_matrix_b[3][1] = t1334;
+        let t1335 = -P::lane(t975, 2);
+        coriolis_matrix_p[3][2] = t1335;
+        coriolis_matrix_b[3][2] = t1335;
+        let t1336 = -P::lane(t975, 0);
+        coriolis_matrix_p[3][0] = t1336;
+        coriolis_matrix_b[3][0] = t1336;
+        let t1337 = -P::lane(t976, 1);
+        coriolis_matrix_p[4][1] = t1337;
+        coriolis_matrix_b[4][1] = t1337;
+        let t1338 = -P::lane(t976, 2);
+        coriolis_matrix_p[4][2] = t1338;
+        coriolis_matrix_b[4][2] = t1338;
+        let t1339 = -P::lane(t976, 0);
+        coriolis_matrix_p[4][0] = t1339;
+        coriolis_matrix_b[4][0] = t1339;
+        let t1340 = -P::lane(t977, 1);
+        coriolis_matrix_p[5][1] = t1340;
+        coriolis_matrix_b[5][1] = t1340;
+        let t1341 = -P::lane(t977, 2);
+        coriolis_matrix_p[5][2] = t1341;
+        coriolis_matrix_b[5][2] = t1341;
+        let t1342 = -P::lane(t977, 0);
+        coriolis_matrix_p[5][0] = t1342;
+        coriolis_matrix_b[5][0] = t1342;
+        // mass matrix M_p of the platform
+        mass_matrix_p[0][0] = P::lane(t929 + t1299, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t929, 1);
+        mass_matrix_p[0][2] = P::lane(t929, 2);
+        mass_matrix_p[0][3] = P::lane(t1231, 0);
+        mass_matrix_p[1][0] = P::lane(t929, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t1289, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t1079, 2);
+        mass_matrix_p[1][4] = P::lane(t1232, 1);
+        mass_matrix_p[2][0] = P::lane(t929, 2);
+        mass_matrix_p[2][1] = P::lane(t1079, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t1290, 2);
+        // mass matrix of the legs
+        mass_matrix_p[2][5] = P::lane(t1233, 2);
+        mass_matrix_p[3][0] = P::lane(t1231, 0);
+        // mass matrix M_p of the platform
+        mass_matrix_p[3][3] = prepared[75][3] - t1125 + P::lane(t930, 0);
+        // mass matrix of the legs
+        mass_matrix_p[4][1] = P::lane(t1232, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[4][4] = P::lane(t1080, 1) + (prepared[75][3] - t1127);
+        // mass matrix of the legs
+        mass_matrix_p[5][2] = P::lane(t1233, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[5][5] =
+            P::lane(t1217 + P::triple([c(0.0), c(0.0), P::lane(t1078, 2)]), 2) + t1300;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][3] = -P::lane(t1226, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t1280 - P::lane(t1226, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t1226, 2) + t1281);
+        coriolis_matrix_p[1][3] = -(t1280 + P::lane(t1238, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t1238, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t1282 - P::lane(t1238, 2);
+        coriolis_matrix_p[2][3] = t1281 - P::lane(t1227, 0);
+        coriolis_matrix_p[2][4] = -(t1282 + P::lane(t1227, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t1227, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t1189, t1283);
+        coriolis_matrix_p[3][4] = -P::mul_add(platform_velocity[4], t1212, t1258);
+        coriolis_matrix_p[3][5] = P::mul_sub(platform_velocity[4], t1259, t1284);
+        coriolis_matrix_p[4][3] = P::mul_sub(platform_velocity[3], t1189, t1285);
+        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t1211, t1286);
+        coriolis_matrix_p[4][5] = -P::mul_add(platform_velocity[3], t1259, t1260);
+        coriolis_matrix_p[5][3] = -P::mul_add(platform_velocity[3], t1211, t1261);
+        coriolis_matrix_p[5][4] = P::mul_sub(platform_velocity[3], t1191, t1287);
+        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t1212, t1288);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t206, 0);
+        jacobian_dp[0][1] = P::lane(t229, 0);
+        jacobian_dp[0][2] = P::lane(t230, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t306, 0);
+        jacobian_dp[0][4] = P::lane(t307, 0);
+        jacobian_dp[0][5] = P::lane(t308, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t206, 1);
+        jacobian_dp[1][1] = P::lane(t229, 1);
+        jacobian_dp[1][2] = P::lane(t230, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t306, 1);
+        jacobian_dp[1][4] = P::lane(t307, 1);
+        jacobian_dp[1][5] = P::lane(t308, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t206, 2);
+        jacobian_dp[2][1] = P::lane(t229, 2);
+        jacobian_dp[2][2] = P::lane(t230, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t306, 2);
+        jacobian_dp[2][4] = P::lane(t307, 2);
+        jacobian_dp[2][5] = P::lane(t308, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t184, 0);
+        jacobian_dp[3][1] = P::lane(t207, 0);
+        jacobian_dp[3][2] = P::lane(t208, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t273, 0);
+        jacobian_dp[3][4] = P::lane(t274, 0);
+        jacobian_dp[3][5] = P::lane(t275, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t184, 1);
+        jacobian_dp[4][1] = P::lane(t207, 1);
+        jacobian_dp[4][2] = P::lane(t208, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t273, 1);
+        jacobian_dp[4][4] = P::lane(t274, 1);
+        jacobian_dp[4][5] = P::lane(t275, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t184, 2);
+        jacobian_dp[5][1] = P::lane(t207, 2);
+        jacobian_dp[5][2] = P::lane(t208, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t273, 2);
+        jacobian_dp[5][4] = P::lane(t274, 2);
+        jacobian_dp[5][5] = P::lane(t275, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t1291, 0);
+        mass_matrix_b[0][1] = P::lane(t1291, 1);
+        mass_matrix_b[0][2] = P::lane(t1291, 2);
+        mass_matrix_b[0][3] =
+            P::lane(t1134, 0) - t1239 - P::mul_add(base_rotation[0][2], t1193, t1228);
+        mass_matrix_b[0][4] = P::lane(t1134, 1) - t1240 + t1301;
+        mass_matrix_b[0][5] = t1302 - P::lane(t479, 1);
+        mass_matrix_b[1][0] = P::lane(t1292, 0);
+        mass_matrix_b[1][1] = P::lane(t1292, 1);
+        mass_matrix_b[1][2] = P::lane(t1292, 2);
+        mass_matrix_b[1][3] = t1303 - P::lane(t479, 2);
+        mass_matrix_b[1][4] =
+            P::lane(t1162, 1) - t1242 - P::mul_add(base_rotation[1][2], t1196, t1229);
+        mass_matrix_b[1][5] = P::lane(t1162, 2) - t1243 + t1304;
+        mass_matrix_b[2][0] = P::lane(t1293, 0);
+        mass_matrix_b[2][1] = P::lane(t1293, 1);
+        mass_matrix_b[2][2] = P::lane(t1293, 2);
+        mass_matrix_b[2][3] = P::lane(t1135, 0) - t1245 + t1305;
+        mass_matrix_b[2][4] = t1306 - P::lane(t479, 0);
+        mass_matrix_b[2][5] =
+            P::lane(t1135, 2) - t1247 - P::mul_add(base_rotation[2][2], t1197, t1230);
+        mass_matrix_b[3][0] = P::neg_mul_add(base_rotation[0][2], t1200, P::lane(t689, 0)) - t1296;
+        mass_matrix_b[3][1] = t1307 - t1175;
+        mass_matrix_b[3][2] = P::lane(t689, 2) + t1308;
+        mass_matrix_b[3][3] = P::lane(t1294, 0);
+        mass_matrix_b[3][4] = P::lane(t1294, 1);
+        mass_matrix_b[3][5] = P::lane(t1294, 2);
+        mass_matrix_b[4][0] = P::lane(t691, 0) + t1309;
+        mass_matrix_b[4][1] = P::neg_mul_add(base_rotation[1][2], t1202, P::lane(t691, 1)) - t1297;
+        mass_matrix_b[4][2] = t1310 - t1177;
+        mass_matrix_b[4][3] = P::lane(t1295, 0);
+        mass_matrix_b[4][4] = P::lane(t1295, 1);
+        mass_matrix_b[4][5] = P::lane(t1295, 2);
+        mass_matrix_b[5][0] = t1311 - t1176;
+        mass_matrix_b[5][1] = P::lane(t692, 1) + t1312;
+        mass_matrix_b[5][2] = P::neg_mul_add(base_rotation[2][2], t1204, P::lane(t692, 2)) - t1298;
+        mass_matrix_b[5][3] = t1313 - P::lane(t480, 0);
+        mass_matrix_b[5][4] = t1314 - P::lane(t480, 1);
+        mass_matrix_b[5][5] = P::lane(t1078, 2) - t1254 + t1315;
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = -P::lane(t1274, 0);
+        coriolis_matrix_b[0][4] = -P::lane(t1274, 1);
+        coriolis_matrix_b[0][5] = -P::lane(t1274, 2);
+        coriolis_matrix_b[1][3] = -P::lane(t1275, 0);
+        coriolis_matrix_b[1][4] = -P::lane(t1275, 1);
+        coriolis_matrix_b[1][5] = -P::lane(t1275, 2);
+        coriolis_matrix_b[2][3] = -P::lane(t1276, 0);
+        coriolis_matrix_b[2][4] = -P::lane(t1276, 1);
+        coriolis_matrix_b[2][5] = -P::lane(t1276, 2);
+        coriolis_matrix_b[3][3] = -P::lane(t1277, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t1277, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t1277, 2);
+        coriolis_matrix_b[4][3] = -P::lane(t1278, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t1278, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t1278, 2);
+        coriolis_matrix_b[5][3] = -P::lane(t1279, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t1279, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t1279, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t206, 0);
+        jacobian_db[0][1] = P::lane(t229, 0);
+        jacobian_db[0][2] = P::lane(t230, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t1262, 0);
+        jacobian_db[0][4] = P::lane(t1264, 0);
+        jacobian_db[0][5] = P::lane(t1266, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t206, 1);
+        jacobian_db[1][1] = P::lane(t229, 1);
+        jacobian_db[1][2] = P::lane(t230, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t1262, 1);
+        jacobian_db[1][4] = P::lane(t1264, 1);
+        jacobian_db[1][5] = P::lane(t1266, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t206, 2);
+        jacobian_db[2][1] = P::lane(t229, 2);
+        jacobian_db[2][2] = P::lane(t230, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t1262, 2);
+        jacobian_db[2][4] = P::lane(t1264, 2);
+        jacobian_db[2][5] = P::lane(t1266, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t184, 0);
+        jacobian_db[3][1] = P::lane(t207, 0);
+        jacobian_db[3][2] = P::lane(t208, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t1263, 0);
+        jacobian_db[3][4] = P::lane(t1265, 0);
+        jacobian_db[3][5] = P::lane(t1267, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t184, 1);
+        jacobian_db[4][1] = P::lane(t207, 1);
+        jacobian_db[4][2] = P::lane(t208, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t1263, 1);
+        jacobian_db[4][4] = P::lane(t1265, 1);
+        jacobian_db[4][5] = P::lane(t1267, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t184, 2);
+        jacobian_db[5][1] = P::lane(t207, 2);
+        jacobian_db[5][2] = P::lane(t208, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t1263, 2);
+        jacobian_db[5][4] = P::lane(t1265, 2);
+        jacobian_db[5][5] = P::lane(t1267, 2);
+    }
+}
+
+/// What follows from the parameters alone, for \`inverse_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 38x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 38],
+) {
+    let c = T::constant;
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[1] / t4;
+    let t8 = parameters.rod_inertia[3] / t5;
+    let t9 = parameters.rod_inertia[5] / t6;
+    let t10 = c(1.0) - parameters.rod_com_fraction[1];
+    let t11 = c(1.0) - parameters.rod_com_fraction[3];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    prepared[32][0] = mul_add(t10, parameters.rod_mass[1] * t10, t7);
+    prepared[32][1] = mul_add(t11, parameters.rod_mass[3] * t11, t8);
+    let t13 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[32][2] = t13;
+    prepared[32][3] = t13;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t14 = parameters.rod_inertia[0] / t1;
+    let t15 = parameters.rod_inertia[2] / t2;
+    let t16 = parameters.rod_inertia[4] / t3;
+    let t17 = c(1.0) - parameters.rod_com_fraction[0];
+    let t18 = c(1.0) - parameters.rod_com_fraction[2];
+    let t19 = c(1.0) - parameters.rod_com_fraction[4];
+    prepared[31][0] = mul_add(t17, parameters.rod_mass[0] * t17, t14);
+    prepared[31][1] = mul_add(t18, parameters.rod_mass[2] * t18, t15);
+    let t20 = mul_add(t19, parameters.rod_mass[4] * t19, t16);
+    prepared[31][2] = t20;
+    prepared[31][3] = t20;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t21 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t22 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t23 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t24 = mul_add(parameters.rod_com_fraction[1], t21, t7);
+    let t25 = mul_add(parameters.rod_com_fraction[3], t22, t8);
+    let t26 = mul_add(parameters.rod_com_fraction[5], t23, t9);
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t27 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t28 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t29 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t30 = mul_add(parameters.rod_com_fraction[0], t27, t14);
+    let t31 = mul_add(parameters.rod_com_fraction[2], t28, t15);
+    let t32 = mul_add(parameters.rod_com_fraction[4], t29, t16);
+    // second moment of payload and platform-side leg ends
+    let t33 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t34 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t35 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t36 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t37 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][0]);
+    let t38 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t39 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t40 = mul_add(t30, t36, t37) + mul_add(t31, t38, t39);
+    let t41 = mul_add(t32, t34, t35) + t40;
+    let t42 = mul_add(t33, parameters.payload_mass, t41);
+    prepared[21][0] = t42 - parameters.payload_inertia[0][1];
+    let t43 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t44 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t45 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t46 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t47 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+    let t48 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t49 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t50 = mul_add(t30, t46, t47) + mul_add(t31, t48, t49);
+    let t51 = mul_add(t32, t44, t45) + t50;
+    let t52 = mul_add(t43, parameters.payload_mass, t51);
+    prepared[21][1] = t52 - parameters.payload_inertia[1][2];
+    let t53 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t54 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t55 = t26 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t56 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t57 = t24 * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+    let t58 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t59 = t25 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t60 = mul_add(t30, t56, t57) + mul_add(t31, t58, t59);
+    let t61 = mul_add(t32, t54, t55) + t60;
+    let t62 = mul_add(t53, parameters.payload_mass, t61);
+    let t63 = t62 - parameters.payload_inertia[0][2];
+    prepared[21][2] = t63;
+    prepared[21][3] = t63;
+    let t64 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t65 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t66 = t65 + parameters.payload_inertia[2][2];
+    let t67 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t68 = t26 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t69 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t70 = t24 * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+    let t71 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t72 = t25 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t73 = mul_add(t30, t69, t70) + mul_add(t31, t71, t72);
+    let t74 = mul_add(t66, c(0.5), mul_add(t32, t67, t68) + t73);
+    let t75 = t74 - parameters.payload_inertia[0][0];
+    prepared[22][0] = mul_add(parameters.payload_mass, t64, t75);
+    let t76 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t77 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t78 = t26 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t79 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t80 = t24 * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+    let t81 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t82 = t25 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t83 = mul_add(t30, t79, t80) + mul_add(t31, t81, t82);
+    let t84 = mul_add(t66, c(0.5), mul_add(t32, t77, t78) + t83);
+    let t85 = t84 - parameters.payload_inertia[1][1];
+    prepared[22][1] = mul_add(parameters.payload_mass, t76, t85);
+    let t86 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t87 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t88 = t26 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t89 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t90 = t24 * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+    let t91 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t92 = t25 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t93 = mul_add(t30, t89, t90) + mul_add(t31, t91, t92);
+    let t94 = mul_add(t66, c(0.5), mul_add(t32, t87, t88) + t93);
+    let t95 = t94 - parameters.payload_inertia[2][2];
+    let t96 = mul_add(parameters.payload_mass, t86, t95);
+    prepared[22][2] = t96;
+    prepared[22][3] = t96;
+    // first moment of payload and platform-side leg ends
+    let t97 = parameters.platform_point[5][0] * t26;
+    let t98 = parameters.platform_point[1][0] * t24;
+    let t99 = parameters.platform_point[3][0] * t25;
+    let t100 = mul_add(parameters.platform_point[2][0], t31, t99);
+    let t101 = mul_add(parameters.platform_point[0][0], t30, t98) + t100;
+    let t102 = mul_add(parameters.platform_point[4][0], t32, t97) + t101;
+    prepared[24][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t102);
+    let t103 = parameters.platform_point[5][1] * t26;
+    let t104 = parameters.platform_point[1][1] * t24;
+    let t105 = parameters.platform_point[3][1] * t25;
+    let t106 = mul_add(parameters.platform_point[2][1], t31, t105);
+    let t107 = mul_add(parameters.platform_point[0][1], t30, t104) + t106;
+    let t108 = mul_add(parameters.platform_point[4][1], t32, t103) + t107;
+    prepared[24][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][2] * t26;
+    let t110 = parameters.platform_point[1][2] * t24;
+    let t111 = parameters.platform_point[3][2] * t25;
+    let t112 = mul_add(parameters.platform_point[2][2], t31, t111);
+    let t113 = mul_add(parameters.platform_point[0][2], t30, t110) + t112;
+    let t114 = mul_add(parameters.platform_point[4][2], t32, t109) + t113;
+    let t115 = mul_add(parameters.payload_com[2], parameters.payload_mass, t114);
+    prepared[24][2] = t115;
+    prepared[24][3] = t115;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    prepared[20][0] = neg_mul_add(t27, t17, t14);
+    prepared[20][1] = neg_mul_add(t28, t18, t15);
+    let t116 = neg_mul_add(t29, t19, t16);
+    prepared[20][2] = t116;
+    prepared[20][3] = t116;
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    prepared[23][0] = neg_mul_add(t21, t10, t7);
+    prepared[23][1] = neg_mul_add(t22, t11, t8);
+    let t117 = neg_mul_add(t23, t12, t9);
+    prepared[23][2] = t117;
+    prepared[23][3] = t117;
+    // mass of payload and platform-side leg ends
+    let t118 = t26 + t32 + (t24 + t30 + (t25 + t31));
+    let t119 = parameters.payload_mass + t118;
+    prepared[37][0] = t119;
+    prepared[37][1] = t119;
+    prepared[37][2] = t119;
+    prepared[37][3] = t119;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[2][0];
+    prepared[1][2] = parameters.platform_point[4][0];
+    prepared[1][3] = parameters.platform_point[4][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[2][2];
+    prepared[2][2] = parameters.platform_point[4][2];
+    prepared[2][3] = parameters.platform_point[4][2];
+    prepared[3][0] = parameters.platform_point[1][1];
+    prepared[3][1] = parameters.platform_point[3][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[1][0];
+    prepared[4][1] = parameters.platform_point[3][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[2][0];
+    prepared[7][2] = parameters.base_point[4][0];
+    prepared[7][3] = parameters.base_point[4][0];
+    prepared[8][0] = parameters.actuator_axis[0][1];
+    prepared[8][1] = parameters.actuator_axis[2][1];
+    prepared[8][2] = parameters.actuator_axis[4][1];
+    prepared[8][3] = parameters.actuator_axis[4][1];
+    prepared[9][0] = parameters.actuator_axis[0][0];
+    prepared[9][1] = parameters.actuator_axis[2][0];
+    prepared[9][2] = parameters.actuator_axis[4][0];
+    prepared[9][3] = parameters.actuator_axis[4][0];
+    prepared[10][0] = parameters.base_point[1][1];
+    prepared[10][1] = parameters.base_point[3][1];
+    prepared[10][2] = parameters.base_point[5][1];
+    prepared[10][3] = parameters.base_point[5][1];
+    prepared[11][0] = parameters.base_point[0][2];
+    prepared[11][1] = parameters.base_point[2][2];
+    prepared[11][2] = parameters.base_point[4][2];
+    prepared[11][3] = parameters.base_point[4][2];
+    prepared[12][0] = parameters.base_point[1][0];
+    prepared[12][1] = parameters.base_point[3][0];
+    prepared[12][2] = parameters.base_point[5][0];
+    prepared[12][3] = parameters.base_point[5][0];
+    prepared[13][0] = parameters.actuator_axis[0][2];
+    prepared[13][1] = parameters.actuator_axis[2][2];
+    prepared[13][2] = parameters.actuator_axis[4][2];
+    prepared[13][3] = parameters.actuator_axis[4][2];
+    prepared[14][0] = parameters.actuator_axis[1][1];
+    prepared[14][1] = parameters.actuator_axis[3][1];
+    prepared[14][2] = parameters.actuator_axis[5][1];
+    prepared[14][3] = parameters.actuator_axis[5][1];
+    prepared[15][0] = parameters.actuator_axis[1][0];
+    prepared[15][1] = parameters.actuator_axis[3][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.base_point[1][2];
+    prepared[16][1] = parameters.base_point[3][2];
+    prepared[16][2] = parameters.base_point[5][2];
+    prepared[16][3] = parameters.base_point[5][2];
+    prepared[17][0] = parameters.actuator_axis[1][2];
+    prepared[17][1] = parameters.actuator_axis[3][2];
+    prepared[17][2] = parameters.actuator_axis[5][2];
+    prepared[17][3] = parameters.actuator_axis[5][2];
+    prepared[25][0] = parameters.rest_length[0];
+    prepared[25][1] = parameters.rest_length[2];
+    prepared[25][2] = parameters.rest_length[4];
+    prepared[25][3] = parameters.rest_length[4];
+    prepared[26][0] = parameters.axial_damping[0];
+    prepared[26][1] = parameters.axial_damping[2];
+    prepared[26][2] = parameters.axial_damping[4];
+    prepared[26][3] = parameters.axial_damping[4];
+    prepared[27][0] = parameters.rest_length[1];
+    prepared[27][1] = parameters.rest_length[3];
+    prepared[27][2] = parameters.rest_length[5];
+    prepared[27][3] = parameters.rest_length[5];
+    prepared[28][0] = parameters.axial_damping[1];
+    prepared[28][1] = parameters.axial_damping[3];
+    prepared[28][2] = parameters.axial_damping[5];
+    prepared[28][3] = parameters.axial_damping[5];
+    prepared[29][0] = parameters.axial_stiffness[0];
+    prepared[29][1] = parameters.axial_stiffness[2];
+    prepared[29][2] = parameters.axial_stiffness[4];
+    prepared[29][3] = parameters.axial_stiffness[4];
+    prepared[30][0] = parameters.axial_stiffness[1];
+    prepared[30][1] = parameters.axial_stiffness[3];
+    prepared[30][2] = parameters.axial_stiffness[5];
+    prepared[30][3] = parameters.axial_stiffness[5];
+    prepared[33][0] = parameters.mover_offset[0];
+    prepared[33][1] = parameters.mover_offset[2];
+    prepared[33][2] = parameters.mover_offset[4];
+    prepared[33][3] = parameters.mover_offset[4];
+    prepared[34][0] = parameters.mover_offset[1];
+    prepared[34][1] = parameters.mover_offset[3];
+    prepared[34][2] = parameters.mover_offset[5];
+    prepared[34][3] = parameters.mover_offset[5];
+    prepared[35][0] = parameters.mover_mass[0];
+    prepared[35][1] = parameters.mover_mass[2];
+    prepared[35][2] = parameters.mover_mass[4];
+    prepared[35][3] = parameters.mover_mass[4];
+    prepared[36][0] = parameters.mover_mass[1];
+    prepared[36][1] = parameters.mover_mass[3];
+    prepared[36][2] = parameters.mover_mass[5];
+    prepared[36][3] = parameters.mover_mass[5];
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 38x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 38],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 = P::load(&prepared[7]);
+    let t39 = P::load(&prepared[8]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t40 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t43 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t44 = P::load(&prepared[9]);
+    let t45 = P::load(&prepared[10]);
+    let t46 = P::load(&prepared[11]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t47 = mul_add(t20, P::splat(P::lane(t17, 2)), t41);
+    // legs 2, 4, 6: platform joint from the base point
+    let t48 = P::splat(P::lane(t22, 1)) + t36 - t45;
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 2)) + t37 - t46;
+    // constant and copied elements
+    let t50 = P::load(&prepared[12]);
+    let t51 = P::load(&prepared[13]);
+    let t52 = P::load(&prepared[14]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 0)) + t40 - t50;
+    // constant and copied elements
+    let t54 = P::load(&prepared[15]);
+    let t55 = P::load(&prepared[16]);
+    let t56 = P::load(&prepared[17]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t57 = mul_add(t49, t51, mul_add(t42, t44, t39 * t43));
+    // legs 2, 4, 6: platform joint from the base point
+    let t58 = P::splat(P::lane(t22, 2)) + t47 - t55;
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t61 = neg_mul_add(t39, t57, t43);
+    let t62 = neg_mul_add(t44, t57, t42);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t63 = mul_add(t56, t58, mul_add(t53, t54, t48 * t52));
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t64 = neg_mul_add(t51, t57, t49);
+    // angular velocity of the base
+    let t65 = mul_add(t2, P::splat(base_velocity[3]), t59);
+    // velocity of the platform origin relative to the base
+    let t66 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t67 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t68 = P::load(&prepared[19]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t52, t63, t48);
+    let t70 = neg_mul_add(t54, t63, t53);
+    let t71 = neg_mul_add(t56, t63, t58);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t72 = mul_add(t62, t62, t61 * t61);
+    // angular velocity of the base
+    let t73 = mul_add(t5, P::splat(base_velocity[5]), t65);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t66);
+    // angular velocity of the platform
+    let t75 = mul_add(t2, P::splat(platform_velocity[3]), t67);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t76 = mul_add(t70, t70, t69 * t69);
+    // angular acceleration of the base
+    let t77 = t1 * P::splat(base_acceleration[4]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t78 = sqrt(neg_mul_add(t64, t64, t60) - t72);
+    // velocity of the platform origin relative to the base
+    let t79 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t74);
+    // angular acceleration of the platform
+    let t80 = t1 * P::splat(platform_acceleration[4]);
+    // angular acceleration of the base
+    let t81 = mul_add(t2, P::splat(base_acceleration[3]), t77);
+    // angular velocity of the platform
+    let t82 = mul_add(t5, P::splat(platform_velocity[5]), t75);
+    // platform origin seen from the base
+    let t83 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t84 = P::triple([P::lane(t73, 1), P::lane(t73, 2), P::lane(t73, 0)]);
+    // angular acceleration of the platform
+    let t85 = mul_add(t2, P::splat(platform_acceleration[3]), t80);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t86 = sqrt(neg_mul_add(t71, t71, t68) - t76);
+    // angular acceleration of the base
+    let t87 = mul_add(t5, P::splat(base_acceleration[5]), t81);
+    // angular velocity of the base
+    let t88 = P::triple([P::lane(t73, 0), P::lane(t73, 2), P::lane(t73, 0)]);
+    let t89 = P::triple([P::lane(t73, 1), P::lane(t73, 1), P::lane(t73, 2)]);
+    // angular velocity of the platform relative to the base
+    let t90 = t73 - t82;
+    // platform origin seen from the base
+    let t91 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t92 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t93 = t88 * t89;
+    // velocity of the platform origin relative to the base
+    let t94 = mul_add(t91, t92, neg_mul_add(t83, t84, t79));
+    // angular acceleration of the platform
+    let t95 = mul_add(t5, P::splat(platform_acceleration[5]), t85);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t73, 2), P::lane(t73, 2), P::lane(t73, 0)]);
+    // acceleration of the base origin less gravity
+    let t97 = base_acceleration[0] - parameters.gravity[0];
+    let t98 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t99 = P::triple([P::lane(t73, 1), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration of the platform origin less gravity
+    let t100 = parameters.gravity[0] - platform_acceleration[0];
+    let t101 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t102 = mul_add(t99, t99, t96 * t96);
+    // angular acceleration of the base
+    let t103 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t104 = P::triple([P::lane(t93, 2), P::lane(t93, 0), P::lane(t93, 1)]);
+    // angular velocity of the platform relative to the base
+    let t105 = P::triple([P::lane(t90, 2), P::lane(t90, 0), P::lane(t90, 1)]);
+    // angular acceleration of the base
+    let t106 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t107 = t103 + t104;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t32, P::splat(P::lane(t90, 2)), P::splat(P::lane(t94, 1)));
+    // acceleration of the base origin less gravity
+    let t109 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t110 = mul_sub(t88, t89, t106);
+    // acceleration of the platform origin less gravity
+    let t111 = parameters.gravity[2] - platform_acceleration[2];
+    // angular velocity of the platform
+    let t112 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t113 = t84 + t112;
+    // angular velocity of the platform relative to the base
+    let t114 = P::triple([P::lane(t90, 1), P::lane(t90, 2), P::lane(t90, 0)]);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t115 = w(1.0) / t78;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t116 = neg_mul_add(t37, P::splat(P::lane(t90, 1)), P::splat(P::lane(t94, 0)));
+    // acceleration of the base origin less gravity
+    let t117 = mul_add(t5, P::splat(t109), mul_add(t2, P::splat(t97), t98));
+    // acceleration of the platform origin less gravity
+    let t118 = mul_add(t5, P::splat(t111), mul_add(t2, P::splat(t100), t101));
+    // rate of that angular velocity
+    let t119 = mul_add(t92, t114, neg_mul_add(t84, t105, t87 - t95));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t37, P::splat(P::lane(t90, 0)), t108);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t110, 0), -P::lane(t102, 1), P::lane(t107, 2)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t122 = mul_add(t33, P::splat(P::lane(t90, 2)), t116);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t123 = neg_mul_add(t40, P::splat(P::lane(t90, 2)), P::splat(P::lane(t94, 1)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t124 = neg_mul_add(t33, P::splat(P::lane(t90, 0)), P::splat(P::lane(t94, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t125 = P::splat(P::lane(t22, 1)) * t121;
+    // acceleration per base coordinate of points that move with the base
+    let t126 = P::triple([-P::lane(t102, 0), P::lane(t107, 1), P::lane(t110, 2)]);
+    let t127 = P::triple([P::lane(t107, 0), P::lane(t110, 1), -P::lane(t102, 2)]);
+    // velocity of the platform origin relative to the base
+    let t128 = P::triple([P::lane(t94, 1), P::lane(t94, 2), P::lane(t94, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t129 = P::triple([P::lane(t113, 1), P::lane(t113, 2), P::lane(t113, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t130 = t37 * P::splat(P::lane(t119, 0));
+    // legs 2, 4, 6: reciprocal of that extent
+    let t131 = w(1.0) / t86;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t47, P::splat(P::lane(t90, 1)), P::splat(P::lane(t94, 0)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t133 = mul_add(P::splat(P::lane(t22, 2)), t127, t117 + t118);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t134 = mul_add(t47, P::splat(P::lane(t90, 0)), t123);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t135 = mul_add(t32, P::splat(P::lane(t90, 1)), t124);
+    // velocity of the platform origin relative to the base
+    let t136 = P::triple([P::lane(t94, 2), P::lane(t94, 0), P::lane(t94, 1)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t137 = t33 * P::splat(P::lane(t119, 2));
+    let t138 = mul_sub(t32, P::splat(P::lane(t119, 2)), t130);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t139 = mul_add(t36, P::splat(P::lane(t90, 2)), t132);
+    let t140 = neg_mul_add(t36, P::splat(P::lane(t90, 0)), P::splat(P::lane(t94, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t141 = mul_add(P::splat(P::lane(t22, 0)), t126, t125) + t133;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t142 = mul_add(t51, t135, mul_add(t44, t122, t39 * t120));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t143 = mul_sub(t37, P::splat(P::lane(t119, 1)), t137);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t144 = mul_add(t61, t115, t39);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t145 = mul_add(P::splat(P::lane(t90, 2)), t122, t138);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t146 = t47 * P::splat(P::lane(t119, 0));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t147 = t32 * P::splat(P::lane(t119, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t148 = mul_sub(t113, t136, t128 * t129) + t141;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t149 = mul_add(t40, P::splat(P::lane(t90, 1)), t140);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t150 = mul_add(t62, t115, t44);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t151 = neg_mul_add(t39, t142, t120);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t152 = mul_add(P::splat(P::lane(t90, 1)), t135, t143);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t153 = t36 * P::splat(P::lane(t119, 2));
+    let t154 = mul_sub(t40, P::splat(P::lane(t119, 2)), t146);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t155 = mul_sub(t33, P::splat(P::lane(t119, 0)), t147);
+    let t156 = neg_mul_add(P::splat(P::lane(t90, 0)), t135, t145);
+    // legs 1, 3, 5: actuator length d
+    let t157 = t57 - t78;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t158 = neg_mul_add(t44, t142, t122);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t159 = mul_add(t56, t149, mul_add(t54, t139, t52 * t134));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t160 = mul_sub(t47, P::splat(P::lane(t119, 1)), t153);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t161 = mul_add(t69, t131, t52);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t162 = mul_add(t64, t115, t51);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t163 = neg_mul_add(P::splat(P::lane(t90, 2)), t120, t152);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t164 = mul_add(P::splat(P::lane(t90, 2)), t139, t154);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t165 = mul_add(P::splat(P::lane(t90, 0)), t120, t155);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t166 = t40 * P::splat(P::lane(t119, 1));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t167 = P::splat(P::lane(t148, 1)) + t156;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t168 = mul_add(t39, t157, t21);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t169 = mul_add(t70, t131, t54);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t170 = neg_mul_add(t52, t159, t134);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t171 = neg_mul_add(t51, t142, t135);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t172 = mul_add(P::splat(P::lane(t90, 1)), t149, t160);
+    let t173 = mul_sub(t36, P::splat(P::lane(t119, 0)), t166);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t174 = mul_add(t135, t162, mul_add(t122, t150, t120 * t144));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t175 = t163 + P::splat(P::lane(t148, 0));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t176 = neg_mul_add(P::splat(P::lane(t90, 0)), t149, t164);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t177 = neg_mul_add(P::splat(P::lane(t90, 1)), t122, t165);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t178 = mul_add(t44, t157, t38);
+    let t179 = mul_add(t51, t157, t46);
+    // legs 2, 4, 6: actuator length d
+    let t180 = t63 - t86;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t181 = P::splat(P::lane(t110, 0)) * t168;
+    let t182 = P::splat(P::lane(t102, 1)) * t168;
+    let t183 = P::splat(P::lane(t107, 2)) * t168;
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t184 = neg_mul_add(t54, t159, t139);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t185 = mul_add(t71, t131, t56);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t186 = neg_mul_add(P::splat(P::lane(t90, 2)), t134, t172);
+    let t187 = mul_add(P::splat(P::lane(t90, 0)), t134, t173);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t188 = mul_add(t171, t171, mul_add(t158, t158, t151 * t151));
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t189 = t142 - t174;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t190 = P::splat(P::lane(t148, 1)) + t176;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t191 = P::splat(P::lane(t148, 2)) + t177;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t192 = mul_add(P::splat(P::lane(t107, 0)), t179, P::splat(P::lane(t117, 0)));
+    let t193 = t39 * P::splat(P::lane(t73, 2));
+    let t194 = mul_add(P::splat(P::lane(t110, 1)), t179, P::splat(P::lane(t117, 1)));
+    let t195 = t51 * P::splat(P::lane(t73, 0));
+    let t196 = neg_mul_add(P::splat(P::lane(t102, 2)), t179, P::splat(P::lane(t117, 2)));
+    let t197 = t44 * P::splat(P::lane(t73, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t198 = mul_add(t52, t180, t45);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t199 = neg_mul_add(t56, t159, t149);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t200 = mul_add(t149, t185, mul_add(t139, t169, t134 * t161));
+    // angular acceleration of the platform
+    let t201 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
+    // rotation of the platform seen from the base
+    let t202 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t203 = P::splat(P::lane(t148, 0)) + t186;
+    let t204 = neg_mul_add(P::splat(P::lane(t90, 1)), t139, t187);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t205 = mul_add(t162, t191, mul_add(t150, t175, t144 * t167));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t206 = mul_sub(t51, P::splat(P::lane(t73, 1)), t193);
+    let t207 = mul_sub(t44, P::splat(P::lane(t73, 2)), t195);
+    let t208 = mul_sub(t39, P::splat(P::lane(t73, 0)), t197);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t209 = mul_add(t54, t180, t50);
+    let t210 = mul_add(t56, t180, t55);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t211 = t192 - mul_sub(P::splat(P::lane(t102, 0)), t178, t181);
+    let t212 = t174 * w(2.0);
+    let t213 = mul_sub(P::splat(P::lane(t107, 1)), t178, t182) + t194;
+    let t214 = mul_add(P::splat(P::lane(t110, 2)), t178, t183) + t196;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t215 = P::splat(P::lane(t110, 0)) * t198;
+    let t216 = P::splat(P::lane(t102, 1)) * t198;
+    let t217 = P::splat(P::lane(t107, 2)) * t198;
+    // angular acceleration of the platform
+    let t218 = P::triple([P::lane(t95, 1), P::lane(t95, 2), P::lane(t95, 0)]);
+    // rotation of the platform seen from the base
+    let t219 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t220 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t221 = mul_sub(t82, t202, t14 * t112);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t222 = mul_add(t199, t199, mul_add(t184, t184, t170 * t170));
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t223 = t159 - t200;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t224 = P::splat(P::lane(t148, 2)) + t204;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t225 = neg_mul_add(t115, mul_add(t189, t189, t188), t205);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t226 = mul_add(P::splat(P::lane(t107, 0)), t210, P::splat(P::lane(t117, 0)));
+    let t227 = t52 * P::splat(P::lane(t73, 2));
+    let t228 = mul_add(P::splat(P::lane(t110, 1)), t210, P::splat(P::lane(t117, 1)));
+    let t229 = t56 * P::splat(P::lane(t73, 0));
+    let t230 = neg_mul_add(P::splat(P::lane(t102, 2)), t210, P::splat(P::lane(t117, 2)));
+    let t231 = t54 * P::splat(P::lane(t73, 1));
+    // rotation of the platform seen from the base
+    let t232 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t233 = mul_sub(t82, t219, t15 * t112);
+    // rotation of the platform seen from the base
+    let t234 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t235 = mul_add(t185, t224, mul_add(t169, t203, t161 * t190));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t236 = mul_sub(t56, P::splat(P::lane(t73, 1)), t227);
+    let t237 = mul_sub(t54, P::splat(P::lane(t73, 2)), t229);
+    let t238 = mul_sub(t52, P::splat(P::lane(t73, 0)), t231);
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t239 = P::load(&prepared[20]);
+    // acceleration per platform coordinate of points of the platform
+    let t240 = mul_add(t112, t221, mul_sub(t218, t220, t201 * t202));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t241 = neg_mul_add(t44, t225, mul_add(t206, t212, t211));
+    let t242 = neg_mul_add(t39, t225, mul_add(t207, t212, t213));
+    let t243 = neg_mul_add(t51, t225, mul_add(t208, t212, t214));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t244 = t226 - mul_sub(P::splat(P::lane(t102, 0)), t209, t215);
+    let t245 = t200 * w(2.0);
+    let t246 = mul_sub(P::splat(P::lane(t107, 1)), t209, t216) + t228;
+    let t247 = mul_add(P::splat(P::lane(t110, 2)), t209, t217) + t230;
+    // rotation of the platform seen from the base
+    let t248 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t249 = mul_sub(t82, t234, t17 * t112);
+    // angular velocity of the platform
+    let t250 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t251 = mul_add(t112, t233, mul_sub(t218, t232, t201 * t219));
+    let t252 = P::triple([P::lane(t221, 2), P::lane(t221, 0), P::lane(t221, 1)]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t253 = neg_mul_add(t131, mul_add(t223, t223, t222), t235);
+    // acceleration per platform coordinate of points of the platform
+    let t254 = neg_mul_add(t250, t252, t240);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t255 = t239 * t241;
+    let t256 = t239 * t242;
+    let t257 = t239 * t243;
+    // acceleration per platform coordinate of points of the platform
+    let t258 = P::triple([P::lane(t233, 2), P::lane(t233, 0), P::lane(t233, 1)]);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t259 = P::load(&prepared[23]);
+    // acceleration per platform coordinate of points of the platform
+    let t260 = neg_mul_add(t250, t258, t251);
+    let t261 = mul_add(t112, t249, mul_sub(t218, t248, t201 * t234));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t262 = neg_mul_add(t54, t253, mul_add(t236, t245, t244));
+    let t263 = neg_mul_add(t52, t253, mul_add(t237, t245, t246));
+    let t264 = neg_mul_add(t56, t253, mul_add(t238, t245, t247));
+    // acceleration per platform coordinate of points of the platform
+    let t265 = P::triple([P::lane(t249, 2), P::lane(t249, 0), P::lane(t249, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t266 = mul_sub(t33, t257, t37 * t256);
+    let t267 = mul_sub(t37, t255, t32 * t257);
+    let t268 = mul_sub(t32, t256, t33 * t255);
+    // acceleration per platform coordinate of points of the platform
+    let t269 = neg_mul_add(t250, t265, t261);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t270 = t259 * t262;
+    let t271 = t259 * t263;
+    let t272 = t259 * t264;
+    // first moments by platform coordinate of the payload's inertia force
+    let t273 = mul_add(P::splat(prepared[22][0]), t260, P::splat(prepared[21][0]) * t254);
+    // inertia less external wrench that the actuators must balance
+    let t274 = t1 * P::splat(external_wrench[1]);
+    // inertia force less weight, without the actuators' own shares
+    let t275 = mul_add(t239, t241, t270);
+    let t276 = mul_add(t239, t242, t271);
+    let t277 = mul_add(t239, t243, t272);
+    // first moments by platform coordinate of the payload's inertia force
+    let t278 = mul_add(P::splat(prepared[21][2]), t269, t273);
+    // inertia less external wrench that the actuators must balance
+    let t279 = mul_add(t2, P::splat(external_wrench[0]), t274);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t280 = neg_mul_add(t47, t271, mul_add(t36, t272, t266));
+    let t281 = neg_mul_add(t40, t272, mul_add(t47, t270, t267));
+    let t282 = neg_mul_add(t36, t270, mul_add(t40, t271, t268));
+    // first moments by platform coordinate of the payload's inertia force
+    let t283 = mul_sub(t118, P::splat(prepared[24][0]), t278);
+    let t284 = mul_add(P::splat(prepared[21][0]), t260, t254 * P::splat(prepared[22][1]));
+    // inertia less external wrench that the actuators must balance
+    let t285 = mul_add(t5, P::splat(external_wrench[2]), t279);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t286 = P::triple([P::lane(t162, 2), P::lane(t162, 0), P::lane(t162, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t287 = P::triple([P::lane(t150, 1), P::lane(t150, 2), P::lane(t150, 0)]);
+    let t288 = P::triple([P::lane(t162, 1), P::lane(t162, 2), P::lane(t162, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t289 = P::triple([P::lane(t144, 2), P::lane(t144, 0), P::lane(t144, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t290 = P::triple([P::lane(t275, 0), P::lane(t276, 0), P::lane(t277, 0)]);
+    let t291 = P::triple([P::lane(t275, 1), P::lane(t276, 1), P::lane(t277, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t292 = mul_add(P::splat(prepared[21][1]), t269, t284);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t293 = P::triple([P::lane(t150, 2), P::lane(t150, 0), P::lane(t150, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t294 = P::triple([P::lane(t144, 1), P::lane(t144, 2), P::lane(t144, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t295 = mul_sub(t288, t293, t286 * t287);
+    let t296 = mul_sub(t286, t294, t288 * t289);
+    // inertia force less weight, without the actuators' own shares
+    let t297 = P::triple([P::lane(t275, 2), P::lane(t276, 2), P::lane(t277, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t298 = P::triple([P::lane(t280, 0), P::lane(t281, 0), P::lane(t282, 0)]);
+    let t299 = P::triple([P::lane(t280, 1), P::lane(t281, 1), P::lane(t282, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t300 = mul_sub(t118, P::splat(prepared[24][1]), t292);
+    let t301 = mul_add(P::splat(prepared[21][2]), t260, P::splat(prepared[21][1]) * t254);
+    // inertia less external wrench that the actuators must balance
+    let t302 = P::triple([P::lane(t285, 2), P::lane(t285, 0), P::lane(t285, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t303 = P::triple([P::lane(t283, 2), P::lane(t283, 0), P::lane(t283, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t304 = mul_add(P::splat(parameters.payload_com[0]), t302, t303);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t305 = P::triple([P::lane(t280, 2), P::lane(t281, 2), P::lane(t282, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t306 = mul_add(t118, P::splat(prepared[37][0]), t290 + t291 + t297);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t307 = t298 + t299 + t305;
+    // force along the actuator that balances the remaining wrench
+    let t308 = t161 * P::splat(P::lane(t295, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t309 = mul_add(P::splat(prepared[22][2]), t269, t301);
+    // force along the actuator that balances the remaining wrench
+    let t310 = mul_sub(t287, t289, t293 * t294);
+    let t311 = mul_add(t169, P::splat(P::lane(t296, 0)), t308);
+    let t312 = P::lane(t150, 1) * P::lane(t296, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t313 = mul_sub(t260, P::splat(prepared[24][0]), t306);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t314 = mul_sub(t37, t150, t32 * t162);
+    let t315 = mul_sub(t32, t144, t33 * t150);
+    // first moments by platform coordinate of the payload's inertia force
+    let t316 = mul_sub(t118, P::splat(prepared[24][2]), t309);
+    let t317 = P::triple([P::lane(t300, 2), P::lane(t300, 0), P::lane(t300, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t318 = mul_add(P::splat(parameters.payload_com[1]), t302, t317);
+    let t319 = P::triple([P::lane(t304, 2), P::lane(t304, 0), P::lane(t304, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t320 = P::mul_add(P::lane(t150, 0), P::lane(t296, 0), t312);
+    // inertia less external wrench that the actuators must balance
+    let t321 = neg_mul_add(t232, t319, mul_add(t219, t304, t307));
+    // force along the actuator that balances the remaining wrench
+    let t322 = mul_add(t185, P::splat(P::lane(t310, 0)), t311);
+    let t323 = t161 * P::splat(P::lane(t295, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t324 = mul_add(t254, P::splat(prepared[24][1]), t313);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t325 = mul_sub(t47, t169, t40 * t185);
+    let t326 = mul_sub(t40, t161, t36 * t169);
+    // force along the actuator that balances the remaining wrench
+    let t327 = mul_add(t169, P::splat(P::lane(t296, 1)), t323);
+    let t328 = P::mul_add(P::lane(t150, 2), P::lane(t296, 2), t320);
+    let t329 = t161 * P::splat(P::lane(t295, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t330 = mul_add(t269, P::splat(prepared[24][2]), t324);
+    // first moments by platform coordinate of the payload's inertia force
+    let t331 = P::triple([P::lane(t316, 2), P::lane(t316, 0), P::lane(t316, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t332 = mul_add(P::splat(parameters.payload_com[2]), t302, t331);
+    let t333 = P::triple([P::lane(t318, 2), P::lane(t318, 0), P::lane(t318, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t334 = mul_add(t185, P::splat(P::lane(t310, 1)), t327);
+    let t335 = mul_add(t169, P::splat(P::lane(t296, 2)), t329);
+    let t336 = mul_sub(t325, P::splat(t328), t322 * P::splat(P::lane(t314, 0)));
+    let t337 = mul_sub(t326, P::splat(t328), t322 * P::splat(P::lane(t315, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t338 = neg_mul_add(t220, t333, mul_add(t202, t318, t321));
+    let t339 = t330 - t285;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t340 = mul_sub(t33, t162, t37 * t144);
+    // force along the actuator that balances the remaining wrench
+    let t341 = mul_add(t185, P::splat(P::lane(t310, 2)), t335);
+    let t342 = neg_mul_add(P::splat(P::lane(t314, 1)), t334, t336);
+    let t343 = neg_mul_add(P::splat(P::lane(t315, 1)), t334, t337);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t344 = mul_sub(t36, t185, t47 * t161);
+    // inertia less external wrench that the actuators must balance
+    let t345 = P::triple([P::lane(t332, 2), P::lane(t332, 0), P::lane(t332, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t346 = neg_mul_add(P::splat(P::lane(t314, 2)), t341, t342);
+    let t347 = neg_mul_add(P::splat(P::lane(t315, 2)), t341, t343);
+    // inertia less external wrench that the actuators must balance
+    let t348 = neg_mul_add(t248, t345, mul_add(t234, t332, t338));
+    // force along the actuator that balances the remaining wrench
+    let t349 = t295 * P::splat(P::lane(t339, 1));
+    let t350 = mul_add(t296, P::splat(P::lane(t339, 0)), t349);
+    let t351 = mul_sub(P::splat(t328), t344, t322 * P::splat(P::lane(t340, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t352 = mul_add(t2, P::splat(external_wrench[3]), t348);
+    // force along the actuator that balances the remaining wrench
+    let t353 = mul_add(t310, P::splat(P::lane(t339, 2)), t350);
+    let t354 = neg_mul_add(t334, P::splat(P::lane(t340, 1)), t351);
+    let t355 = P::triple([P::lane(t346, 2), P::lane(t346, 0), P::lane(t346, 1)]);
+    let t356 = P::triple([P::lane(t346, 1), P::lane(t346, 2), P::lane(t346, 0)]);
+    let t357 = P::triple([P::lane(t347, 1), P::lane(t347, 2), P::lane(t347, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t358 = mul_add(t1, P::splat(external_wrench[4]), t352);
+    // force along the actuator that balances the remaining wrench
+    let t359 = P::triple([P::lane(t347, 2), P::lane(t347, 0), P::lane(t347, 1)]);
+    let t360 = neg_mul_add(t341, P::splat(P::lane(t340, 2)), t354);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t361 = P::triple([P::lane(t340, 0), P::lane(t314, 0), P::lane(t315, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t362 = mul_sub(t356, t359, t355 * t357);
+    // inertia less external wrench that the actuators must balance
+    let t363 = mul_add(t5, P::splat(external_wrench[5]), t358);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t364 = P::triple([P::lane(t340, 1), P::lane(t314, 1), P::lane(t315, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t365 = mul_add(P::splat(t328), t363, P::splat(P::lane(t353, 0)) * t361);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t366 = P::triple([P::lane(t340, 2), P::lane(t314, 2), P::lane(t315, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t367 = P::triple([P::lane(t360, 1), P::lane(t360, 2), P::lane(t360, 0)]);
+    let t368 = P::triple([P::lane(t360, 2), P::lane(t360, 0), P::lane(t360, 1)]);
+    let t369 = P::lane(t360, 1) * P::lane(t362, 1);
+    let t370 = mul_add(P::splat(P::lane(t353, 1)), t364, t365);
+    let t371 = P::mul_add(P::lane(t360, 0), P::lane(t362, 0), t369);
+    let t372 = mul_add(P::splat(P::lane(t353, 2)), t366, t370);
+    let t373 = mul_sub(t355, t367, t356 * t368);
+    let t374 = P::triple([P::lane(t322, 0), P::lane(t334, 0), P::lane(t341, 0)]);
+    let t375 = c(1.0) / P::mul_add(P::lane(t360, 2), P::lane(t362, 2), t371);
+    let t376 = P::triple([P::lane(t322, 1), P::lane(t334, 1), P::lane(t341, 1)]);
+    let t377 = mul_sub(t357, t368, t359 * t367) * P::splat(P::lane(t372, 1));
+    let t378 = P::triple([P::lane(t322, 2), P::lane(t334, 2), P::lane(t341, 2)]);
+    let t379 = mul_add(t362, P::splat(P::lane(t372, 0)), t377);
+    let t380 = P::splat(t375) * mul_add(t373, P::splat(P::lane(t372, 2)), t379);
+    // inertia less external wrench that the actuators must balance
+    let t381 = -P::lane(t363, 0);
+    let t382 = -P::lane(t363, 1);
+    let t383 = -P::lane(t363, 2);
+    // force along the actuator that balances the remaining wrench
+    let t384 = -t380;
+    let t385 = mul_add(t374, P::splat(P::lane(t380, 0)), t353);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t386 = t9 * P::splat(P::lane(t254, 1));
+    // force along the actuator that balances the remaining wrench
+    let t387 = mul_add(t376, P::splat(P::lane(t380, 1)), t385);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t388 = t18 * P::splat(P::lane(t254, 1));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t389 = t9 * P::splat(P::lane(t254, 0));
+    let t390 = neg_mul_add(t13, P::splat(P::lane(t269, 1)), P::splat(P::lane(t118, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t391 = mul_add(t378, P::splat(P::lane(t380, 2)), t387);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t392 = t18 * P::splat(P::lane(t254, 0));
+    let t393 = neg_mul_add(t20, P::splat(P::lane(t269, 1)), P::splat(P::lane(t118, 1)));
+    // force along the actuator that balances the remaining wrench
+    let t394 = P::splat(c(1.0) / t328) * t391;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t395 = neg_mul_add(t13, P::splat(P::lane(t269, 0)), P::splat(P::lane(t118, 0)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t396 = neg_mul_add(t20, P::splat(P::lane(t269, 0)), P::splat(P::lane(t118, 0)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t397 = t9 * P::splat(P::lane(t254, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t398 = t18 * P::splat(P::lane(t254, 2));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t399 = t395 - mul_add(t12, P::splat(P::lane(t260, 0)), t389);
+    let t400 = neg_mul_add(t13, P::splat(P::lane(t269, 2)), P::splat(P::lane(t118, 2)));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t384, t394],
+        &[
+            [t169, t150],
+            [t161, t144],
+            [t185, t162],
+            [t344, t340],
+            [t325, t314],
+            [t326, t315],
+        ],
+        &[P::lane(t339, 0), P::lane(t339, 1), P::lane(t339, 2), t381, t382, t383],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t401 = t39 * (t390 - mul_add(t12, P::splat(P::lane(t260, 1)), t386));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t402 = t396 - mul_add(t19, P::splat(P::lane(t260, 0)), t392);
+    let t403 = t52 * (t393 - mul_add(t19, P::splat(P::lane(t260, 1)), t388));
+    let t404 = neg_mul_add(t20, P::splat(P::lane(t269, 2)), P::splat(P::lane(t118, 2)));
+    // constant and copied elements
+    let t405 = P::load(&prepared[25]);
+    let t406 = P::load(&prepared[26]);
+    let t407 = P::load(&prepared[27]);
+    let t408 = P::load(&prepared[28]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t409 = t400 - mul_add(t12, P::splat(P::lane(t260, 2)), t397);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t410 = t404 - mul_add(t19, P::splat(P::lane(t260, 2)), t398);
+    // constant and copied elements
+    let t411 = P::load(&prepared[29]);
+    let t412 = P::load(&prepared[30]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t413 = mul_add(t51, t409, mul_add(t44, t399, t401));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t414 = mul_add(t56, t410, mul_add(t54, t402, t403));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t415 = mul_add(t157 - t405, t411, t174 * t406);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t416 = mul_add(t180 - t407, t412, t200 * t408);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t417 = mul_add(t51, t243, mul_add(t44, t241, t39 * t242));
+    let t418 = mul_add(t208, t208, mul_add(t206, t206, t207 * t207));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t419 = mul_add(t56, t264, mul_add(t54, t262, t52 * t263));
+    let t420 = mul_add(t238, t238, mul_add(t236, t236, t237 * t237));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t421 = P::load(&prepared[31]);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t422 = P::load(&prepared[32]);
+    // constant and copied elements
+    let t423 = P::load(&prepared[33]);
+    let t424 = P::load(&prepared[34]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t425 = mul_add(t418, t423, t417);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t426 = mul_add(t420, t424, t419);
+    // constant and copied elements
+    let t427 = P::load(&prepared[35]);
+    let t428 = P::load(&prepared[36]);
+    // legs 1, 3, 5: actuator forces F
+    let t429 = mul_add(t417, t421, mul_add(t239, t413, t415));
+    // legs 2, 4, 6: actuator forces F
+    let t430 = mul_add(t419, t422, mul_add(t259, t414, t416));
+    // force along the actuator that balances the remaining wrench
+    let t431 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t432 = mul_add(t425, t427, t429) + t431;
+    // force along the actuator that balances the remaining wrench
+    let t433 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t434 = mul_add(t426, t428, t430) + t433;
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t432, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t434, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t432, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t434, 1);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t432, 2);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t434, 2);
+}
+
+/// What follows from the parameters alone, for \`actuator_geometry\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 20x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_actuator_geometry<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 20],
+) {
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    prepared[18][0] = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[18][1] = parameters.rod_length[1] * parameters.rod_length[1];
+    let t1 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[18][2] = t1;
+    prepared[18][3] = t1;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    prepared[19][0] = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][1] = parameters.rod_length[4] * parameters.rod_length[4];
+    let t2 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t2;
+    prepared[19][3] = t2;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[3][1];
+    prepared[1][1] = parameters.platform_point[4][1];
+    prepared[1][2] = parameters.platform_point[5][1];
+    prepared[1][3] = parameters.platform_point[5][1];
+    prepared[2][0] = parameters.platform_point[0][0];
+    prepared[2][1] = parameters.platform_point[1][0];
+    prepared[2][2] = parameters.platform_point[2][0];
+    prepared[2][3] = parameters.platform_point[2][0];
+    prepared[3][0] = parameters.platform_point[0][2];
+    prepared[3][1] = parameters.platform_point[1][2];
+    prepared[3][2] = parameters.platform_point[2][2];
+    prepared[3][3] = parameters.platform_point[2][2];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[3][2];
+    prepared[5][1] = parameters.platform_point[4][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[1][1];
+    prepared[6][2] = parameters.base_point[2][1];
+    prepared[6][3] = parameters.base_point[2][1];
+    prepared[7][0] = parameters.base_point[3][1];
+    prepared[7][1] = parameters.base_point[4][1];
+    prepared[7][2] = parameters.base_point[5][1];
+    prepared[7][3] = parameters.base_point[5][1];
+    prepared[8][0] = parameters.base_point[0][0];
+    prepared[8][1] = parameters.base_point[1][0];
+    prepared[8][2] = parameters.base_point[2][0];
+    prepared[8][3] = parameters.base_point[2][0];
+    prepared[9][0] = parameters.base_point[3][0];
+    prepared[9][1] = parameters.base_point[4][0];
+    prepared[9][2] = parameters.base_point[5][0];
+    prepared[9][3] = parameters.base_point[5][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[1][2];
+    prepared[10][2] = parameters.base_point[2][2];
+    prepared[10][3] = parameters.base_point[2][2];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[12][0] = parameters.actuator_axis[0][1];
+    prepared[12][1] = parameters.actuator_axis[1][1];
+    prepared[12][2] = parameters.actuator_axis[2][1];
+    prepared[12][3] = parameters.actuator_axis[2][1];
+    prepared[13][0] = parameters.actuator_axis[3][1];
+    prepared[13][1] = parameters.actuator_axis[4][1];
+    prepared[13][2] = parameters.actuator_axis[5][1];
+    prepared[13][3] = parameters.actuator_axis[5][1];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[1][0];
+    prepared[14][2] = parameters.actuator_axis[2][0];
+    prepared[14][3] = parameters.actuator_axis[2][0];
+    prepared[15][0] = parameters.actuator_axis[3][0];
+    prepared[15][1] = parameters.actuator_axis[4][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.actuator_axis[0][2];
+    prepared[16][1] = parameters.actuator_axis[1][2];
+    prepared[16][2] = parameters.actuator_axis[2][2];
+    prepared[16][3] = parameters.actuator_axis[2][2];
+    prepared[17][0] = parameters.actuator_axis[3][2];
+    prepared[17][1] = parameters.actuator_axis[4][2];
+    prepared[17][2] = parameters.actuator_axis[5][2];
+    prepared[17][3] = parameters.actuator_axis[5][2];
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `prepared`: 20x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn actuator_geometry_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    prepared: &[[P::Lane; 4]; 20],
+    rod_alignment: &mut [P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    let t5 = t1 * P::splat(platform_rotation[1][2]);
+    // constant and copied elements
+    let t6 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    let t9 = mul_add(t2, P::splat(platform_rotation[0][2]), t5);
+    // platform origin seen from the base
+    let t10 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t11 = P::load(&prepared[0]);
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t6, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t6, P::splat(platform_rotation[2][0]), t8);
+    let t16 = mul_add(t6, P::splat(platform_rotation[2][2]), t9);
+    // platform origin seen from the base
+    let t17 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t6, P::splat(platform_position[2] - base_position[2]), t17);
+    // constant and copied elements
+    let t23 = P::load(&prepared[7]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t24 = t11 * P::splat(P::lane(t14, 0));
+    let t25 = t11 * P::splat(P::lane(t14, 1));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    let t27 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t29 = mul_add(t19, P::splat(P::lane(t15, 1)), t26);
+    // constant and copied elements
+    let t30 = P::load(&prepared[8]);
+    let t31 = P::load(&prepared[9]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t32 = mul_add(t13, P::splat(P::lane(t15, 0)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 0)), t27);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t34 = t11 * P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t35 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: platform joint from the base point
+    let t36 = mul_sub(t18, P::splat(P::lane(t16, 1)), t21) + t28;
+    // legs 4, 5, 6: platform joint from the base point
+    let t37 = mul_sub(t20, P::splat(P::lane(t16, 1)), t23) + t29;
+    // constant and copied elements
+    let t38 = P::load(&prepared[10]);
+    let t39 = P::load(&prepared[11]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t40 = mul_add(t13, P::splat(P::lane(t15, 2)), t34);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = t32 + mul_sub(t18, P::splat(P::lane(t16, 0)), t30);
+    // legs 4, 5, 6: platform joint from the base point
+    let t43 = t33 + mul_sub(t20, P::splat(P::lane(t16, 0)), t31);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t36;
+    // legs 4, 5, 6: platform joint from the base point
+    let t45 = P::splat(P::lane(t22, 1)) + t37;
+    // constant and copied elements
+    let t46 = P::load(&prepared[12]);
+    let t47 = P::load(&prepared[13]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t48 = t42 + P::splat(P::lane(t22, 0));
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = t43 + P::splat(P::lane(t22, 0));
+    // legs 1, 2, 3: platform joint from the base point
+    let t50 = t40 + mul_sub(t18, P::splat(P::lane(t16, 2)), t38);
+    // legs 4, 5, 6: platform joint from the base point
+    let t51 = t41 + mul_sub(t20, P::splat(P::lane(t16, 2)), t39);
+    // constant and copied elements
+    let t52 = P::load(&prepared[14]);
+    let t53 = P::load(&prepared[15]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 2)) + t50;
+    // legs 4, 5, 6: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t51;
+    // constant and copied elements
+    let t56 = P::load(&prepared[16]);
+    let t57 = P::load(&prepared[17]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t54, t56, mul_add(t48, t52, t44 * t46));
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t59 = mul_add(t55, t57, mul_add(t49, t53, t45 * t47));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t61 = P::load(&prepared[19]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t62 = P::splat(platform_rotation[0][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t63 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t64 = P::splat(platform_rotation[1][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t65 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t66 = neg_mul_add(t46, t58, t44);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t67 = neg_mul_add(t47, t59, t45);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t68 = neg_mul_add(t52, t58, t48);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t69 = neg_mul_add(t53, t59, t49);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t70 = neg_mul_add(t56, t58, t54);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t71 = neg_mul_add(t57, t59, t55);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t72 = P::splat(platform_rotation[2][1]) * t11;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t73 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t74 = mul_add(P::splat(platform_rotation[0][0]), t13, t62);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t75 = mul_add(P::splat(platform_rotation[0][0]), t19, t63);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t76 = mul_add(t68, t68, t66 * t66);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t77 = mul_add(t69, t69, t67 * t67);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t78 = mul_add(P::splat(platform_rotation[1][0]), t13, t64);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t79 = mul_add(P::splat(platform_rotation[1][0]), t19, t65);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t80 = mul_add(P::splat(platform_rotation[2][0]), t13, t72);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t81 = mul_add(P::splat(platform_rotation[2][0]), t19, t73);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t82 = mul_add(P::splat(platform_rotation[0][2]), t18, t74);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t83 = mul_add(P::splat(platform_rotation[0][2]), t20, t75);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t84 = neg_mul_add(t70, t70, t60) - t76;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t85 = neg_mul_add(t71, t71, t61) - t77;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t86 = mul_add(P::splat(platform_rotation[1][2]), t18, t78);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t87 = mul_add(P::splat(platform_rotation[1][2]), t20, t79);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t88 = mul_add(P::splat(platform_rotation[2][2]), t18, t80);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t89 = mul_add(P::splat(platform_rotation[2][2]), t20, t81);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t90 = sqrt(t84);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t91 = sqrt(t85);
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t92 = t84 / t60;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t93 = t85 / t61;
+    // legs 1, 2, 3: reciprocal of that extent
+    let t94 = w(1.0) / t90;
+    // legs 4, 5, 6: reciprocal of that extent
+    let t95 = w(1.0) / t91;
+    // legs 1, 2, 3: actuator length d
+    let t96 = t58 - t90;
+    // legs 4, 5, 6: actuator length d
+    let t97 = t59 - t91;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t98 = mul_add(t66, t94, t46);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t99 = mul_add(t67, t95, t47);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t100 = mul_add(t68, t94, t52);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t101 = mul_add(t69, t95, t53);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t102 = mul_add(t70, t94, t56);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t103 = mul_add(t71, t95, t57);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t104 = P::splat(base_rotation[0][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t105 = P::splat(base_rotation[0][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t106 = P::splat(base_rotation[1][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t107 = P::splat(base_rotation[1][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t108 = P::splat(base_rotation[2][1]) * t98;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t109 = P::splat(base_rotation[2][1]) * t99;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t110 = mul_add(P::splat(base_rotation[0][0]), t100, t104);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t111 = mul_add(P::splat(base_rotation[0][0]), t101, t105);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t112 = mul_add(P::splat(base_rotation[1][0]), t100, t106);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t113 = mul_add(P::splat(base_rotation[1][0]), t101, t107);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t114 = mul_add(P::splat(base_rotation[2][0]), t100, t108);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t115 = mul_add(P::splat(base_rotation[2][0]), t101, t109);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t116 = mul_add(P::splat(base_rotation[0][2]), t102, t110);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t117 = mul_add(P::splat(base_rotation[0][2]), t103, t111);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t118 = mul_add(P::splat(base_rotation[1][2]), t102, t112);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t119 = mul_add(P::splat(base_rotation[1][2]), t103, t113);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t120 = mul_add(P::splat(base_rotation[2][2]), t102, t114);
+    // legs 4, 5, 6: gradient of the actuator length
+    let t121 = mul_add(P::splat(base_rotation[2][2]), t103, t115);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t122 = mul_sub(t82, t118, t86 * t116);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t123 = mul_sub(t83, t119, t87 * t117);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t124 = mul_sub(t86, t120, t88 * t118);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t125 = mul_sub(t87, t121, t89 * t119);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t126 = mul_sub(t88, t116, t82 * t120);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t127 = mul_sub(t89, t117, t83 * t121);
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = P::lane(t92, 0);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = P::lane(t92, 1);
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = P::lane(t92, 2);
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = P::lane(t93, 0);
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = P::lane(t93, 1);
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = P::lane(t93, 2);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t96, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t96, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t96, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t97, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t97, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t97, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t116, 0);
+    jacobian_dp[0][1] = P::lane(t118, 0);
+    jacobian_dp[0][2] = P::lane(t120, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t124, 0);
+    jacobian_dp[0][4] = P::lane(t126, 0);
+    jacobian_dp[0][5] = P::lane(t122, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t116, 1);
+    jacobian_dp[1][1] = P::lane(t118, 1);
+    jacobian_dp[1][2] = P::lane(t120, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t124, 1);
+    jacobian_dp[1][4] = P::lane(t126, 1);
+    jacobian_dp[1][5] = P::lane(t122, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t116, 2);
+    jacobian_dp[2][1] = P::lane(t118, 2);
+    jacobian_dp[2][2] = P::lane(t120, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t124, 2);
+    jacobian_dp[2][4] = P::lane(t126, 2);
+    jacobian_dp[2][5] = P::lane(t122, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t117, 0);
+    jacobian_dp[3][1] = P::lane(t119, 0);
+    jacobian_dp[3][2] = P::lane(t121, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t125, 0);
+    jacobian_dp[3][4] = P::lane(t127, 0);
+    jacobian_dp[3][5] = P::lane(t123, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t117, 1);
+    jacobian_dp[4][1] = P::lane(t119, 1);
+    jacobian_dp[4][2] = P::lane(t121, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t125, 1);
+    jacobian_dp[4][4] = P::lane(t127, 1);
+    jacobian_dp[4][5] = P::lane(t123, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t117, 2);
+    jacobian_dp[5][1] = P::lane(t119, 2);
+    jacobian_dp[5][2] = P::lane(t121, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t125, 2);
+    jacobian_dp[5][4] = P::lane(t127, 2);
+    jacobian_dp[5][5] = P::lane(t123, 2);
+}
+
+/// What follows from the parameters alone, for \`control\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 50x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_control<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 50],
+) {
+    let c = T::constant;
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[18][0] = t1;
+    let t2 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[18][1] = t2;
+    let t3 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[18][2] = t3;
+    prepared[18][3] = t3;
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[1] / t1;
+    let t8 = parameters.rod_inertia[3] / t2;
+    let t9 = parameters.rod_inertia[5] / t3;
+    let t10 = c(1.0) - parameters.rod_com_fraction[1];
+    let t11 = c(1.0) - parameters.rod_com_fraction[3];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[1] * t10, t7);
+    prepared[21][0] = t13;
+    let t14 = mul_add(t11, parameters.rod_mass[3] * t11, t8);
+    prepared[21][1] = t14;
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[21][2] = t15;
+    prepared[21][3] = t15;
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t4;
+    let t17 = parameters.rod_inertia[2] / t5;
+    let t18 = parameters.rod_inertia[4] / t6;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[2];
+    let t21 = c(1.0) - parameters.rod_com_fraction[4];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    prepared[20][0] = t22;
+    let t23 = mul_add(t20, parameters.rod_mass[2] * t20, t17);
+    prepared[20][1] = t23;
+    let t24 = mul_add(t21, parameters.rod_mass[4] * t21, t18);
+    prepared[20][2] = t24;
+    prepared[20][3] = t24;
+    // legs 2, 4, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t26 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[1], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[3], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 3, 5: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t33 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[2], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[4], t33, t18);
+    // second moment of payload and platform-side leg ends
+    let t37 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t38 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t39 = t38 + parameters.payload_inertia[2][2];
+    let t40 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t41 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t42 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t43 = t28 * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+    let t44 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t45 = t29 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t46 = mul_add(t34, t42, t43) + mul_add(t35, t44, t45);
+    let t47 = mul_add(t39, c(0.5), mul_add(t36, t40, t41) + t46);
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    let t49 = mul_add(parameters.payload_mass, t37, t48);
+    prepared[39][0] = t49;
+    let t50 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t51 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t52 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+    let t55 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t56 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t57 = mul_add(t34, t53, t54) + mul_add(t35, t55, t56);
+    let t58 = mul_add(t39, c(0.5), mul_add(t36, t51, t52) + t57);
+    let t59 = t58 - parameters.payload_inertia[1][1];
+    let t60 = mul_add(parameters.payload_mass, t50, t59);
+    prepared[39][1] = t60;
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t63 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t64 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t65 = t28 * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+    let t66 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t67 = t29 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t68 = mul_add(t34, t64, t65) + mul_add(t35, t66, t67);
+    let t69 = mul_add(t39, c(0.5), mul_add(t36, t62, t63) + t68);
+    let t70 = t69 - parameters.payload_inertia[2][2];
+    let t71 = mul_add(parameters.payload_mass, t61, t70);
+    prepared[39][2] = t71;
+    prepared[39][3] = t71;
+    let t72 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t73 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t74 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t75 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t76 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][0]);
+    let t77 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t78 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t79 = mul_add(t34, t75, t76) + mul_add(t35, t77, t78);
+    let t80 = mul_add(t36, t73, t74) + t79;
+    let t81 = mul_add(t72, parameters.payload_mass, t80);
+    prepared[38][0] = t81 - parameters.payload_inertia[0][1];
+    let t82 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t83 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t84 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t85 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t86 = t28 * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+    let t87 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t88 = t29 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t89 = mul_add(t34, t85, t86) + mul_add(t35, t87, t88);
+    let t90 = mul_add(t36, t83, t84) + t89;
+    let t91 = mul_add(t82, parameters.payload_mass, t90);
+    prepared[38][1] = t91 - parameters.payload_inertia[1][2];
+    let t92 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t93 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t94 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t95 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t96 = t28 * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+    let t97 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t98 = t29 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t99 = mul_add(t34, t95, t96) + mul_add(t35, t97, t98);
+    let t100 = mul_add(t36, t93, t94) + t99;
+    let t101 = mul_add(t92, parameters.payload_mass, t100);
+    let t102 = t101 - parameters.payload_inertia[0][2];
+    prepared[38][2] = t102;
+    prepared[38][3] = t102;
+    // legs 1, 3, 5: mass that slides along the actuator axis: mover and rod's end
+    let t103 = t22 + parameters.mover_mass[0];
+    prepared[23][0] = t103;
+    let t104 = t23 + parameters.mover_mass[2];
+    prepared[23][1] = t104;
+    let t105 = t24 + parameters.mover_mass[4];
+    prepared[23][2] = t105;
+    prepared[23][3] = t105;
+    // legs 2, 4, 6: mass that slides along the actuator axis: mover and rod's end
+    let t106 = t13 + parameters.mover_mass[1];
+    prepared[25][0] = t106;
+    let t107 = t14 + parameters.mover_mass[3];
+    prepared[25][1] = t107;
+    let t108 = t15 + parameters.mover_mass[5];
+    prepared[25][2] = t108;
+    prepared[25][3] = t108;
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t109 = neg_mul_add(t33, t21, t18);
+    prepared[26][2] = t109;
+    prepared[26][3] = t109;
+    let t110 = neg_mul_add(t31, t19, t16);
+    prepared[26][0] = t110;
+    let t111 = neg_mul_add(t32, t20, t17);
+    prepared[26][1] = t111;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t112 = c(1.0) / t103;
+    prepared[28][0] = t112 * t110;
+    let t113 = c(1.0) / t104;
+    prepared[28][1] = t113 * t111;
+    let t114 = c(1.0) / t105;
+    let t115 = t114 * t109;
+    prepared[28][2] = t115;
+    prepared[28][3] = t115;
+    prepared[29][0] = t112 * (t110 * t110);
+    prepared[29][1] = t113 * (t111 * t111);
+    let t116 = t114 * (t109 * t109);
+    prepared[29][2] = t116;
+    prepared[29][3] = t116;
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t117 = neg_mul_add(t27, t12, t9);
+    prepared[27][2] = t117;
+    prepared[27][3] = t117;
+    let t118 = neg_mul_add(t25, t10, t7);
+    prepared[27][0] = t118;
+    let t119 = neg_mul_add(t26, t11, t8);
+    prepared[27][1] = t119;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t120 = c(1.0) / t106;
+    prepared[30][0] = t120 * t118;
+    let t121 = c(1.0) / t107;
+    prepared[30][1] = t121 * t119;
+    let t122 = c(1.0) / t108;
+    let t123 = t122 * t117;
+    prepared[30][2] = t123;
+    prepared[30][3] = t123;
+    prepared[31][0] = t120 * (t118 * t118);
+    prepared[31][1] = t121 * (t119 * t119);
+    let t124 = t122 * (t117 * t117);
+    prepared[31][2] = t124;
+    prepared[31][3] = t124;
+    // first moment of payload and platform-side leg ends
+    let t125 = parameters.platform_point[5][0] * t30;
+    let t126 = parameters.platform_point[1][0] * t28;
+    let t127 = parameters.platform_point[3][0] * t29;
+    let t128 = mul_add(parameters.platform_point[2][0], t35, t127);
+    let t129 = mul_add(parameters.platform_point[0][0], t34, t126) + t128;
+    let t130 = mul_add(parameters.platform_point[4][0], t36, t125) + t129;
+    prepared[42][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t130);
+    let t131 = parameters.platform_point[5][1] * t30;
+    let t132 = parameters.platform_point[1][1] * t28;
+    let t133 = parameters.platform_point[3][1] * t29;
+    let t134 = mul_add(parameters.platform_point[2][1], t35, t133);
+    let t135 = mul_add(parameters.platform_point[0][1], t34, t132) + t134;
+    let t136 = mul_add(parameters.platform_point[4][1], t36, t131) + t135;
+    prepared[42][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t136);
+    let t137 = parameters.platform_point[5][2] * t30;
+    let t138 = parameters.platform_point[1][2] * t28;
+    let t139 = parameters.platform_point[3][2] * t29;
+    let t140 = mul_add(parameters.platform_point[2][2], t35, t139);
+    let t141 = mul_add(parameters.platform_point[0][2], t34, t138) + t140;
+    let t142 = mul_add(parameters.platform_point[4][2], t36, t137) + t141;
+    let t143 = mul_add(parameters.payload_com[2], parameters.payload_mass, t142);
+    prepared[42][2] = t143;
+    prepared[42][3] = t143;
+    // mass of payload and platform-side leg ends
+    let t144 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    let t145 = parameters.payload_mass + t144;
+    prepared[43][1] = t145;
+    prepared[44][0] = t145;
+    prepared[45][2] = t145;
+    prepared[45][3] = t145;
+    prepared[49][0] = t145;
+    prepared[49][1] = t145;
+    prepared[49][2] = t145;
+    prepared[49][3] = t145;
+    // mass matrix M_p of the platform
+    let t146 = t71 + (t49 + t60);
+    prepared[46][0] = t146;
+    prepared[47][1] = t146;
+    prepared[48][2] = t146;
+    prepared[48][3] = t146;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[1][1];
+    prepared[0][1] = parameters.platform_point[3][1];
+    prepared[0][2] = parameters.platform_point[5][1];
+    prepared[0][3] = parameters.platform_point[5][1];
+    prepared[1][0] = parameters.platform_point[0][1];
+    prepared[1][1] = parameters.platform_point[2][1];
+    prepared[1][2] = parameters.platform_point[4][1];
+    prepared[1][3] = parameters.platform_point[4][1];
+    prepared[2][0] = parameters.platform_point[1][0];
+    prepared[2][1] = parameters.platform_point[3][0];
+    prepared[2][2] = parameters.platform_point[5][0];
+    prepared[2][3] = parameters.platform_point[5][0];
+    prepared[3][0] = parameters.platform_point[0][0];
+    prepared[3][1] = parameters.platform_point[2][0];
+    prepared[3][2] = parameters.platform_point[4][0];
+    prepared[3][3] = parameters.platform_point[4][0];
+    prepared[4][0] = parameters.platform_point[1][2];
+    prepared[4][1] = parameters.platform_point[3][2];
+    prepared[4][2] = parameters.platform_point[5][2];
+    prepared[4][3] = parameters.platform_point[5][2];
+    prepared[5][0] = parameters.platform_point[0][2];
+    prepared[5][1] = parameters.platform_point[2][2];
+    prepared[5][2] = parameters.platform_point[4][2];
+    prepared[5][3] = parameters.platform_point[4][2];
+    prepared[6][0] = parameters.base_point[1][1];
+    prepared[6][1] = parameters.base_point[3][1];
+    prepared[6][2] = parameters.base_point[5][1];
+    prepared[6][3] = parameters.base_point[5][1];
+    prepared[7][0] = parameters.base_point[0][1];
+    prepared[7][1] = parameters.base_point[2][1];
+    prepared[7][2] = parameters.base_point[4][1];
+    prepared[7][3] = parameters.base_point[4][1];
+    prepared[8][0] = parameters.base_point[1][0];
+    prepared[8][1] = parameters.base_point[3][0];
+    prepared[8][2] = parameters.base_point[5][0];
+    prepared[8][3] = parameters.base_point[5][0];
+    prepared[9][0] = parameters.actuator_axis[1][1];
+    prepared[9][1] = parameters.actuator_axis[3][1];
+    prepared[9][2] = parameters.actuator_axis[5][1];
+    prepared[9][3] = parameters.actuator_axis[5][1];
+    prepared[10][0] = parameters.base_point[0][0];
+    prepared[10][1] = parameters.base_point[2][0];
+    prepared[10][2] = parameters.base_point[4][0];
+    prepared[10][3] = parameters.base_point[4][0];
+    prepared[11][0] = parameters.actuator_axis[0][1];
+    prepared[11][1] = parameters.actuator_axis[2][1];
+    prepared[11][2] = parameters.actuator_axis[4][1];
+    prepared[11][3] = parameters.actuator_axis[4][1];
+    prepared[12][0] = parameters.actuator_axis[1][0];
+    prepared[12][1] = parameters.actuator_axis[3][0];
+    prepared[12][2] = parameters.actuator_axis[5][0];
+    prepared[12][3] = parameters.actuator_axis[5][0];
+    prepared[13][0] = parameters.base_point[1][2];
+    prepared[13][1] = parameters.base_point[3][2];
+    prepared[13][2] = parameters.base_point[5][2];
+    prepared[13][3] = parameters.base_point[5][2];
+    prepared[14][0] = parameters.actuator_axis[0][0];
+    prepared[14][1] = parameters.actuator_axis[2][0];
+    prepared[14][2] = parameters.actuator_axis[4][0];
+    prepared[14][3] = parameters.actuator_axis[4][0];
+    prepared[15][0] = parameters.base_point[0][2];
+    prepared[15][1] = parameters.base_point[2][2];
+    prepared[15][2] = parameters.base_point[4][2];
+    prepared[15][3] = parameters.base_point[4][2];
+    prepared[16][0] = parameters.actuator_axis[1][2];
+    prepared[16][1] = parameters.actuator_axis[3][2];
+    prepared[16][2] = parameters.actuator_axis[5][2];
+    prepared[16][3] = parameters.actuator_axis[5][2];
+    prepared[17][0] = parameters.actuator_axis[0][2];
+    prepared[17][1] = parameters.actuator_axis[2][2];
+    prepared[17][2] = parameters.actuator_axis[4][2];
+    prepared[17][3] = parameters.actuator_axis[4][2];
+    prepared[22][0] = parameters.mover_mass[0];
+    prepared[22][1] = parameters.mover_mass[2];
+    prepared[22][2] = parameters.mover_mass[4];
+    prepared[22][3] = parameters.mover_mass[4];
+    prepared[24][0] = parameters.mover_mass[1];
+    prepared[24][1] = parameters.mover_mass[3];
+    prepared[24][2] = parameters.mover_mass[5];
+    prepared[24][3] = parameters.mover_mass[5];
+    prepared[32][0] = parameters.rest_length[1];
+    prepared[32][1] = parameters.rest_length[3];
+    prepared[32][2] = parameters.rest_length[5];
+    prepared[32][3] = parameters.rest_length[5];
+    prepared[33][0] = parameters.axial_damping[1];
+    prepared[33][1] = parameters.axial_damping[3];
+    prepared[33][2] = parameters.axial_damping[5];
+    prepared[33][3] = parameters.axial_damping[5];
+    prepared[34][0] = parameters.rest_length[0];
+    prepared[34][1] = parameters.rest_length[2];
+    prepared[34][2] = parameters.rest_length[4];
+    prepared[34][3] = parameters.rest_length[4];
+    prepared[35][0] = parameters.axial_damping[0];
+    prepared[35][1] = parameters.axial_damping[2];
+    prepared[35][2] = parameters.axial_damping[4];
+    prepared[35][3] = parameters.axial_damping[4];
+    prepared[36][0] = parameters.axial_stiffness[1];
+    prepared[36][1] = parameters.axial_stiffness[3];
+    prepared[36][2] = parameters.axial_stiffness[5];
+    prepared[36][3] = parameters.axial_stiffness[5];
+    prepared[37][0] = parameters.axial_stiffness[0];
+    prepared[37][1] = parameters.axial_stiffness[2];
+    prepared[37][2] = parameters.axial_stiffness[4];
+    prepared[37][3] = parameters.axial_stiffness[4];
+    prepared[40][0] = parameters.mover_offset[1];
+    prepared[40][1] = parameters.mover_offset[3];
+    prepared[40][2] = parameters.mover_offset[5];
+    prepared[40][3] = parameters.mover_offset[5];
+    prepared[41][0] = parameters.mover_offset[0];
+    prepared[41][1] = parameters.mover_offset[2];
+    prepared[41][2] = parameters.mover_offset[4];
+    prepared[41][3] = parameters.mover_offset[4];
+    prepared[43][0] = c(0.0);
+    prepared[43][2] = c(0.0);
+    prepared[43][3] = c(0.0);
+    prepared[44][1] = c(0.0);
+    prepared[44][2] = c(0.0);
+    prepared[44][3] = c(0.0);
+    prepared[45][0] = c(0.0);
+    prepared[45][1] = c(0.0);
+    prepared[46][1] = c(0.0);
+    prepared[46][2] = c(0.0);
+    prepared[46][3] = c(0.0);
+    prepared[47][0] = c(0.0);
+    prepared[47][2] = c(0.0);
+    prepared[47][3] = c(0.0);
+    prepared[48][0] = c(0.0);
+    prepared[48][1] = c(0.0);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 50x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 50],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t12 * P::splat(P::lane(t14, 1));
+    let t26 = t12 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t27 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    let t28 = t9 * P::splat(P::lane(t14, 2));
+    let t29 = mul_add(t13, P::splat(P::lane(t15, 1)), t24);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t18, P::splat(P::lane(t15, 1)), t25);
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t26);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t28);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t27);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // constant and copied elements
+    let t40 = P::load(&prepared[7]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 2, 4, 6: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // constant and copied elements
+    let t43 = P::load(&prepared[8]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t44 = P::splat(P::lane(t22, 1)) + t35 - t40;
+    // constant and copied elements
+    let t45 = P::load(&prepared[9]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t43;
+    // constant and copied elements
+    let t47 = P::load(&prepared[10]);
+    let t48 = P::load(&prepared[11]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t49 = t37 + P::splat(P::lane(t22, 0)) - t47;
+    // constant and copied elements
+    let t50 = P::load(&prepared[12]);
+    let t51 = P::load(&prepared[13]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t52 = P::splat(P::lane(t22, 2)) + t39 - t51;
+    // constant and copied elements
+    let t53 = P::load(&prepared[14]);
+    let t54 = P::load(&prepared[15]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t41 - t54;
+    // constant and copied elements
+    let t56 = P::load(&prepared[16]);
+    let t57 = P::load(&prepared[17]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t58 = mul_add(t52, t56, mul_add(t46, t50, t42 * t45));
+    // angular velocity of the base
+    let t59 = t1 * P::splat(base_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t61 = mul_add(t55, t57, mul_add(t49, t53, t44 * t48));
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t62 = P::load(&prepared[19]);
+    // legs 2, 4, 6: offset of the platform joint from the actuator axis
+    let t63 = neg_mul_add(t45, t58, t42);
+    let t64 = neg_mul_add(t50, t58, t46);
+    let t65 = neg_mul_add(t56, t58, t52);
+    // angular velocity of the base
+    let t66 = mul_add(t2, P::splat(base_velocity[3]), t59);
+    // legs 1, 3, 5: offset of the platform joint from the actuator axis
+    let t67 = neg_mul_add(t48, t61, t44);
+    let t68 = neg_mul_add(t53, t61, t49);
+    let t69 = neg_mul_add(t57, t61, t55);
+    // velocity of the platform origin relative to the base
+    let t70 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t71 = mul_add(t5, P::splat(base_velocity[5]), t66);
+    // angular velocity of the platform
+    let t72 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t73 = mul_add(t64, t64, t63 * t63);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t70);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t75 = mul_add(t68, t68, t67 * t67);
+    // angular velocity of the platform
+    let t76 = mul_add(t2, P::splat(platform_velocity[3]), t72);
+    // angular acceleration of the base
+    let t77 = t1 * P::splat(base_acceleration[4]);
+    // velocity of the platform origin relative to the base
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t74);
+    // angular velocity of the platform
+    let t79 = mul_add(t5, P::splat(platform_velocity[5]), t76);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t80 = sqrt(neg_mul_add(t65, t65, t60) - t73);
+    // angular acceleration of the base
+    let t81 = mul_add(t2, P::splat(base_acceleration[3]), t77);
+    // platform origin seen from the base
+    let t82 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t83 = P::triple([P::lane(t71, 1), P::lane(t71, 2), P::lane(t71, 0)]);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t84 = sqrt(neg_mul_add(t69, t69, t62) - t75);
+    // angular velocity of the base
+    let t85 = P::triple([P::lane(t71, 0), P::lane(t71, 2), P::lane(t71, 0)]);
+    let t86 = P::triple([P::lane(t71, 1), P::lane(t71, 1), P::lane(t71, 2)]);
+    // angular acceleration of the base
+    let t87 = mul_add(t5, P::splat(base_acceleration[5]), t81);
+    // angular velocity of the platform relative to the base
+    let t88 = t71 - t79;
+    // platform origin seen from the base
+    let t89 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t71, 2), P::lane(t71, 0), P::lane(t71, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t91 = t85 * t86;
+    // velocity of the platform origin relative to the base
+    let t92 = mul_add(t89, t90, neg_mul_add(t82, t83, t78));
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t71, 2), P::lane(t71, 2), P::lane(t71, 0)]);
+    // acceleration of the base origin less gravity
+    let t94 = base_acceleration[0] - parameters.gravity[0];
+    let t95 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t71, 1), P::lane(t71, 0), P::lane(t71, 1)]);
+    // acceleration of the platform origin less gravity
+    let t97 = t1 * P::splat(parameters.gravity[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t98 = mul_add(t96, t96, t93 * t93);
+    // angular acceleration of the base
+    let t99 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t100 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
+    // angular velocity of the platform relative to the base
+    let t101 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // angular acceleration of the base
+    let t102 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t103 = t99 + t100;
+    // acceleration of the platform origin less gravity
+    let t104 = mul_add(t2, P::splat(parameters.gravity[0]), t97);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t105 = neg_mul_add(t36, P::splat(P::lane(t88, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration of the base origin less gravity
+    let t106 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t107 = mul_sub(t85, t86, t102);
+    // angular velocity of the platform
+    let t108 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t109 = neg_mul_add(t37, P::splat(P::lane(t88, 2)), P::splat(P::lane(t92, 1)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t110 = t83 + t108;
+    // angular velocity of the platform relative to the base
+    let t111 = P::triple([P::lane(t88, 1), P::lane(t88, 2), P::lane(t88, 0)]);
+    // legs 2, 4, 6: reciprocal of that extent
+    let t112 = w(1.0) / t80;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t39, P::splat(P::lane(t88, 1)), P::splat(P::lane(t92, 0)));
+    // acceleration of the base origin less gravity
+    let t114 = mul_add(t5, P::splat(t106), mul_add(t2, P::splat(t94), t95));
+    // acceleration of the platform origin less gravity
+    let t115 = mul_add(t5, P::splat(parameters.gravity[2]), t104);
+    // rate of that angular velocity
+    let t116 = mul_add(t90, t111, neg_mul_add(t83, t101, t87));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t117 = mul_add(t39, P::splat(P::lane(t88, 0)), t105);
+    // legs 1, 3, 5: reciprocal of that extent
+    let t118 = w(1.0) / t84;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t119 = neg_mul_add(t41, P::splat(P::lane(t88, 1)), P::splat(P::lane(t92, 0)));
+    let t120 = mul_add(t41, P::splat(P::lane(t88, 0)), t109);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t107, 0), -P::lane(t98, 1), P::lane(t103, 2)]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t122 = mul_add(t34, P::splat(P::lane(t88, 2)), t113);
+    let t123 = neg_mul_add(t34, P::splat(P::lane(t88, 0)), P::splat(P::lane(t92, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t124 = P::splat(P::lane(t22, 1)) * t121;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t125 = mul_add(t35, P::splat(P::lane(t88, 2)), t119);
+    let t126 = neg_mul_add(t35, P::splat(P::lane(t88, 0)), P::splat(P::lane(t92, 2)));
+    // acceleration per base coordinate of points that move with the base
+    let t127 = P::triple([-P::lane(t98, 0), P::lane(t103, 1), P::lane(t107, 2)]);
+    let t128 = P::triple([P::lane(t103, 0), P::lane(t107, 1), -P::lane(t98, 2)]);
+    // velocity of the platform origin relative to the base
+    let t129 = P::triple([P::lane(t92, 1), P::lane(t92, 2), P::lane(t92, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t130 = P::triple([P::lane(t110, 1), P::lane(t110, 2), P::lane(t110, 0)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t131 = t39 * P::splat(P::lane(t116, 0));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t132 = mul_add(P::splat(P::lane(t22, 2)), t128, t114 + t115);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t133 = mul_add(t36, P::splat(P::lane(t88, 1)), t123);
+    // rotation of the platform seen from the base
+    let t134 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t135 = t41 * P::splat(P::lane(t116, 0));
+    // legs 1, 3, 5: rod's end mass at the Hooke joint
+    let t136 = P::load(&prepared[20]);
+    // acceleration per platform coordinate of points of the platform
+    let t137 = mul_sub(t79, t134, t14 * t108);
+    // velocity of the platform origin relative to the base
+    let t138 = P::triple([P::lane(t92, 2), P::lane(t92, 0), P::lane(t92, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t139 = t34 * P::splat(P::lane(t116, 2));
+    let t140 = mul_sub(t36, P::splat(P::lane(t116, 2)), t131);
+    // legs 2, 4, 6: rod's end mass at the Hooke joint
+    let t141 = P::load(&prepared[21]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t142 = mul_add(t37, P::splat(P::lane(t88, 1)), t126);
+    // rotation of the platform seen from the base
+    let t143 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t144 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t145 = mul_add(P::splat(P::lane(t22, 0)), t127, t124) + t132;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t146 = t35 * P::splat(P::lane(t116, 2));
+    let t147 = mul_sub(t37, P::splat(P::lane(t116, 2)), t135);
+    // constant and copied elements
+    let t148 = P::load(&prepared[22]);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t149 = mul_add(t56, t133, mul_add(t50, t122, t45 * t117));
+    // acceleration per platform coordinate of points of the platform
+    let t150 = mul_sub(t79, t143, t15 * t108);
+    let t151 = mul_sub(t79, t144, t17 * t108);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t152 = mul_sub(t39, P::splat(P::lane(t116, 1)), t139);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t153 = mul_add(t63, t112, t45);
+    // legs 1, 3, 5: mass that slides along the actuator axis: mover and rod's end
+    let t154 = P::load(&prepared[23]);
+    // constant and copied elements
+    let t155 = P::load(&prepared[24]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t156 = mul_add(P::splat(P::lane(t88, 2)), t122, t140);
+    let t157 = t36 * P::splat(P::lane(t116, 1));
+    // legs 2, 4, 6: mass that slides along the actuator axis: mover and rod's end
+    let t158 = P::load(&prepared[25]);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t159 = mul_add(t57, t142, mul_add(t53, t125, t48 * t120));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t160 = mul_sub(t110, t138, t129 * t130) + t145;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t161 = mul_sub(t41, P::splat(P::lane(t116, 1)), t146);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t162 = mul_add(t67, t118, t48);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t163 = mul_add(P::splat(P::lane(t88, 2)), t125, t147);
+    let t164 = t37 * P::splat(P::lane(t116, 1));
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t165 = mul_add(t64, t112, t50);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t166 = neg_mul_add(t45, t149, t117);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t167 = mul_add(P::splat(P::lane(t88, 1)), t133, t152);
+    let t168 = mul_sub(t34, P::splat(P::lane(t116, 0)), t157);
+    // angular velocity of the platform
+    let t169 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t170 = P::triple([P::lane(t137, 2), P::lane(t137, 0), P::lane(t137, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t171 = neg_mul_add(P::splat(P::lane(t88, 0)), t133, t156);
+    // legs 2, 4, 6: actuator length d
+    let t172 = t58 - t80;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t173 = mul_add(t68, t118, t53);
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t174 = neg_mul_add(t48, t159, t120);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t175 = mul_add(P::splat(P::lane(t88, 1)), t142, t161);
+    let t176 = mul_sub(t35, P::splat(P::lane(t116, 0)), t164);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t177 = neg_mul_add(t50, t149, t122);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t178 = neg_mul_add(P::splat(P::lane(t88, 0)), t142, t163);
+    // legs 1, 3, 5: actuator length d
+    let t179 = t61 - t84;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t180 = mul_add(t65, t112, t56);
+    // acceleration per platform coordinate of points of the platform
+    let t181 = P::triple([P::lane(t150, 2), P::lane(t150, 0), P::lane(t150, 1)]);
+    let t182 = P::triple([P::lane(t151, 2), P::lane(t151, 0), P::lane(t151, 1)]);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t183 = neg_mul_add(P::splat(P::lane(t88, 2)), t117, t167);
+    let t184 = mul_add(P::splat(P::lane(t88, 0)), t117, t168);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t185 = P::splat(base_rotation[0][1]) * t162;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t186 = P::splat(base_rotation[0][1]) * t48;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t187 = neg_mul_add(t53, t159, t125);
+    // acceleration per platform coordinate of points of the platform
+    let t188 = mul_sub(t108, t137, t169 * t170);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t189 = P::splat(P::lane(t160, 1)) + t171;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t190 = mul_add(t45, t172, t21);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t191 = mul_add(t69, t118, t57);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t192 = P::splat(base_rotation[0][1]) * t153;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t193 = P::splat(base_rotation[1][1]) * t162;
+    let t194 = P::splat(base_rotation[2][1]) * t162;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t195 = P::splat(base_rotation[0][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t196 = P::splat(base_rotation[1][1]) * t48;
+    let t197 = P::splat(base_rotation[2][1]) * t48;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t198 = neg_mul_add(P::splat(P::lane(t88, 2)), t120, t175);
+    let t199 = mul_add(P::splat(P::lane(t88, 0)), t120, t176);
+    // legs 1, 3, 5: rod's inertial coupling between its ends
+    let t200 = P::load(&prepared[26]);
+    // legs 2, 4, 6: rate of the offset from the actuator axis
+    let t201 = neg_mul_add(t56, t149, t133);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t202 = P::splat(P::lane(t160, 1)) + t178;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t203 = mul_add(t48, t179, t40);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t204 = mul_add(P::splat(base_rotation[0][0]), t173, t185);
+    // legs 2, 4, 6: rod's inertial coupling between its ends
+    let t205 = P::load(&prepared[27]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t206 = mul_add(P::splat(base_rotation[0][0]), t53, t186);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t207 = mul_add(t133, t180, mul_add(t122, t165, t117 * t153));
+    // acceleration per platform coordinate of points of the platform
+    let t208 = mul_sub(t108, t150, t169 * t181);
+    let t209 = mul_sub(t108, t151, t169 * t182);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t210 = t183 + P::splat(P::lane(t160, 0));
+    let t211 = neg_mul_add(P::splat(P::lane(t88, 1)), t122, t184);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t212 = mul_add(t50, t172, t43);
+    let t213 = mul_add(t56, t172, t51);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t214 = mul_add(P::splat(base_rotation[0][0]), t165, t192);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t215 = mul_add(P::splat(base_rotation[1][0]), t173, t193);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t216 = P::splat(base_rotation[1][1]) * t153;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t217 = mul_add(P::splat(base_rotation[2][0]), t173, t194);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t218 = P::splat(base_rotation[2][1]) * t153;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t219 = mul_add(P::splat(base_rotation[0][0]), t50, t195);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t220 = mul_add(P::splat(base_rotation[1][0]), t53, t196);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t221 = P::splat(base_rotation[1][1]) * t45;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t222 = mul_add(P::splat(base_rotation[2][0]), t53, t197);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t223 = P::splat(base_rotation[2][1]) * t45;
+    // legs 1, 3, 5: rate of the offset from the actuator axis
+    let t224 = neg_mul_add(t57, t159, t142);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t225 = P::splat(P::lane(t98, 1)) * t190;
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t226 = mul_add(t142, t191, mul_add(t125, t173, t120 * t162));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t227 = P::splat(P::lane(t160, 0)) + t198;
+    let t228 = neg_mul_add(P::splat(P::lane(t88, 1)), t125, t199);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t229 = mul_add(t53, t179, t47);
+    let t230 = mul_add(t57, t179, t54);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t231 = P::splat(P::lane(t107, 0)) * t190;
+    let t232 = P::splat(P::lane(t103, 2)) * t190;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t233 = mul_add(t201, t201, mul_add(t177, t177, t166 * t166));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t234 = P::splat(P::lane(t107, 0)) * t203;
+    let t235 = P::splat(P::lane(t98, 1)) * t203;
+    let t236 = P::splat(P::lane(t103, 2)) * t203;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t237 = mul_add(P::splat(base_rotation[0][2]), t191, t204);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = mul_add(P::splat(base_rotation[1][0]), t165, t216);
+    let t239 = mul_add(P::splat(base_rotation[2][0]), t165, t218);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t240 = mul_add(P::splat(base_rotation[0][2]), t57, t206);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t241 = mul_add(P::splat(base_rotation[1][0]), t50, t221);
+    let t242 = mul_add(P::splat(base_rotation[2][0]), t50, t223);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t243 = t149 - t207;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t244 = P::splat(P::lane(t160, 2)) + t211;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t245 = mul_add(P::splat(P::lane(t107, 1)), t213, P::splat(P::lane(t114, 1)));
+    let t246 = t56 * P::splat(P::lane(t71, 0));
+    // legs 2, 4, 6: gradient of the actuator length
+    let t247 = mul_add(P::splat(base_rotation[0][2]), t180, t214);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t248 = mul_add(P::splat(base_rotation[1][2]), t191, t215);
+    let t249 = mul_add(P::splat(base_rotation[2][2]), t191, t217);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t250 = P::load(&prepared[28]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t251 = mul_add(P::splat(base_rotation[0][2]), t56, t219);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t252 = mul_add(P::splat(base_rotation[1][2]), t57, t220);
+    let t253 = mul_add(P::splat(base_rotation[2][2]), t57, t222);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t254 = mul_add(t224, t224, mul_add(t187, t187, t174 * t174));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t255 = mul_add(P::splat(P::lane(t103, 0)), t213, P::splat(P::lane(t114, 0)));
+    let t256 = t45 * P::splat(P::lane(t71, 2));
+    let t257 = neg_mul_add(P::splat(P::lane(t98, 2)), t213, P::splat(P::lane(t114, 2)));
+    let t258 = t50 * P::splat(P::lane(t71, 1));
+    let t259 = t9 * P::splat(P::lane(t188, 1));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t260 = P::load(&prepared[29]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t261 = P::load(&prepared[30]);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t262 = t159 - t226;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t263 = P::splat(P::lane(t160, 2)) + t228;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t264 = mul_add(P::splat(P::lane(t103, 0)), t230, P::splat(P::lane(t114, 0)));
+    let t265 = t48 * P::splat(P::lane(t71, 2));
+    let t266 = mul_add(P::splat(P::lane(t107, 1)), t230, P::splat(P::lane(t114, 1)));
+    let t267 = t57 * P::splat(P::lane(t71, 0));
+    let t268 = neg_mul_add(P::splat(P::lane(t98, 2)), t230, P::splat(P::lane(t114, 2)));
+    let t269 = t53 * P::splat(P::lane(t71, 1));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t270 = P::load(&prepared[31]);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t271 = mul_add(t180, t244, mul_add(t165, t210, t153 * t189));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t272 = mul_sub(t50, P::splat(P::lane(t71, 2)), t246);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t273 = P::splat(platform_rotation[2][1]) * t12;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t274 = mul_add(P::splat(base_rotation[1][2]), t180, t238);
+    let t275 = mul_add(P::splat(base_rotation[2][2]), t180, t239);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t276 = neg_mul_add(t240, t250, t237);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t277 = mul_add(P::splat(base_rotation[1][2]), t56, t241);
+    let t278 = mul_add(P::splat(base_rotation[2][2]), t56, t242);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t279 = t12 * P::splat(P::lane(t188, 1));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t280 = t207 * w(2.0);
+    let t281 = mul_sub(t56, P::splat(P::lane(t71, 1)), t256);
+    let t282 = mul_sub(P::splat(P::lane(t103, 1)), t212, t225) + t245;
+    let t283 = mul_sub(t45, P::splat(P::lane(t71, 0)), t258);
+    let t284 = t9 * P::splat(P::lane(t188, 0));
+    let t285 = neg_mul_add(t19, P::splat(P::lane(t209, 1)), P::splat(P::lane(t115, 1)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t286 = P::splat(platform_rotation[0][1]) * t12;
+    let t287 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t288 = t240 * t260;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t289 = neg_mul_add(t251, t261, t247);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t290 = neg_mul_add(t250, t252, t248);
+    let t291 = neg_mul_add(t250, t253, t249);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t292 = mul_add(t191, t263, mul_add(t173, t227, t162 * t202));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t293 = mul_sub(t57, P::splat(P::lane(t71, 1)), t265);
+    let t294 = mul_sub(t53, P::splat(P::lane(t71, 2)), t267);
+    let t295 = mul_sub(t48, P::splat(P::lane(t71, 0)), t269);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t296 = t255 - mul_sub(P::splat(P::lane(t98, 0)), t212, t231);
+    let t297 = mul_add(P::splat(P::lane(t107, 2)), t212, t232) + t257;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t298 = t251 * t270;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t299 = t252 * t260;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t300 = t264 - mul_sub(P::splat(P::lane(t98, 0)), t229, t234);
+    let t301 = t226 * w(2.0);
+    let t302 = mul_sub(P::splat(P::lane(t103, 1)), t229, t235) + t266;
+    let t303 = mul_add(P::splat(P::lane(t107, 2)), t229, t236) + t268;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t304 = mul_add(P::splat(platform_rotation[2][0]), t18, t273);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t305 = neg_mul_add(t112, mul_add(t243, t243, t233), t271);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t306 = t12 * P::splat(P::lane(t188, 0));
+    let t307 = neg_mul_add(t20, P::splat(P::lane(t209, 1)), P::splat(P::lane(t115, 1)));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t308 = neg_mul_add(t19, P::splat(P::lane(t209, 0)), P::splat(P::lane(t115, 0)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t309 = mul_add(P::splat(platform_rotation[0][0]), t18, t286);
+    let t310 = mul_add(P::splat(platform_rotation[1][0]), t18, t287);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t311 = t154 * t276;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t312 = neg_mul_add(t261, t277, t274);
+    let t313 = neg_mul_add(t261, t278, t275);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t314 = t9 * P::splat(P::lane(t188, 2));
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t315 = t158 * t289;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t316 = t154 * t290;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t317 = neg_mul_add(t118, mul_add(t262, t262, t254), t292);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t318 = neg_mul_add(t20, P::splat(P::lane(t209, 0)), P::splat(P::lane(t115, 0)));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t319 = P::splat(platform_rotation[0][1]) * t9;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t320 = mul_add(P::splat(platform_rotation[2][2]), t20, t304);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t321 = mul_sub(t291, t311, t253 * t288);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t322 = t12 * P::splat(P::lane(t188, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t323 = neg_mul_add(t45, t305, mul_add(t272, t280, t282));
+    let t324 = t308 - mul_add(t13, P::splat(P::lane(t208, 0)), t284);
+    let t325 = t45 * (t285 - mul_add(t13, P::splat(P::lane(t208, 1)), t259));
+    let t326 = neg_mul_add(t19, P::splat(P::lane(t209, 2)), P::splat(P::lane(t115, 2)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t327 = mul_add(P::splat(platform_rotation[0][2]), t20, t309);
+    let t328 = mul_add(P::splat(platform_rotation[1][2]), t20, t310);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t329 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t330 = mul_sub(t276, t311, t240 * t288);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t331 = mul_sub(t289, t315, t251 * t298);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t332 = mul_sub(t290, t311, t252 * t288);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t333 = mul_sub(t312, t315, t277 * t298);
+    let t334 = mul_sub(t313, t315, t278 * t298);
+    let t335 = t270 * t277;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t336 = mul_sub(t291, t316, t253 * t299);
+    let t337 = mul_sub(t291, t154 * t291, t253 * (t253 * t260));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t338 = neg_mul_add(t50, t305, mul_add(t280, t281, t296));
+    let t339 = neg_mul_add(t56, t305, mul_add(t280, t283, t297));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t340 = neg_mul_add(t53, t317, mul_add(t293, t301, t300));
+    let t341 = neg_mul_add(t48, t317, mul_add(t294, t301, t302));
+    let t342 = neg_mul_add(t57, t317, mul_add(t295, t301, t303));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t343 = mul_add(P::splat(platform_rotation[0][0]), t13, t319);
+    let t344 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t345 = t318 - mul_add(t18, P::splat(P::lane(t208, 0)), t306);
+    let t346 = t48 * (t307 - mul_add(t18, P::splat(P::lane(t208, 1)), t279));
+    let t347 = neg_mul_add(t20, P::splat(P::lane(t209, 2)), P::splat(P::lane(t115, 2)));
+    // constant and copied elements
+    let t348 = P::load(&prepared[32]);
+    let t349 = P::load(&prepared[33]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t350 = mul_add(P::splat(platform_rotation[1][0]), t13, t329);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t351 = mul_sub(t290, t316, t252 * t299);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t352 = t158 * t312;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t353 = t326 - mul_add(t13, P::splat(P::lane(t208, 2)), t314);
+    // mass matrix of the legs
+    let t354 = t330 + t331;
+    let t355 = t332 + t333;
+    let t356 = t321 + t334;
+    let t357 = t327 * t336;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t358 = t205 * t338;
+    let t359 = t205 * t323;
+    let t360 = t205 * t339;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t361 = mul_add(P::splat(platform_rotation[2][0]), t13, t344);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t362 = t200 * t340;
+    let t363 = t200 * t341;
+    let t364 = t200 * t342;
+    // constant and copied elements
+    let t365 = P::load(&prepared[34]);
+    let t366 = P::load(&prepared[35]);
+    let t367 = P::load(&prepared[36]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t368 = mul_add(P::splat(platform_rotation[0][2]), t19, t343);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t369 = mul_sub(t313, t352, t278 * t335);
+    // mass matrix of the legs
+    let t370 = mul_sub(t327, t337, t320 * t321);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t371 = t347 - mul_add(t18, P::splat(P::lane(t208, 2)), t322);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t372 = mul_add(t56, t353, mul_add(t50, t324, t325));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t373 = mul_add(t172 - t348, t367, t207 * t349);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t374 = mul_add(P::splat(platform_rotation[1][2]), t19, t350);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t375 = mul_sub(t312, t352, t277 * t335);
+    // mass matrix of the legs
+    let t376 = mul_sub(t321, t328, t357);
+    let t377 = mul_sub(t320, t336, t328 * t337);
+    // inertia force less weight, without the actuators' own shares
+    let t378 = mul_add(t200, t340, t358);
+    let t379 = mul_add(t200, t341, t359);
+    let t380 = mul_add(t200, t342, t360);
+    // constant and copied elements
+    let t381 = P::load(&prepared[37]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t382 = mul_add(P::splat(platform_rotation[2][2]), t19, t361);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t383 = mul_sub(t313, t158 * t313, t278 * (t270 * t278));
+    // mass matrix of the legs
+    let t384 = mul_sub(t320, t332, t357);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t385 = mul_add(t57, t371, mul_add(t53, t345, t346));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t386 = mul_add(t179 - t365, t381, t226 * t366);
+    // mass matrix of the legs
+    let t387 = t368 * t369;
+    let t388 = mul_sub(t320, t351, t328 * t336);
+    let t389 = mul_sub(t328, t332, t327 * t351);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t390 = mul_add(t56, t339, mul_add(t50, t338, t45 * t323));
+    let t391 = mul_add(t283, t283, mul_add(t281, t281, t272 * t272));
+    // mass matrix of the legs
+    let t392 = P::triple([P::lane(t354, 0), P::lane(t355, 0), P::lane(t356, 0)]);
+    let t393 = P::triple([P::lane(t354, 1), P::lane(t355, 1), P::lane(t356, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t394 = mul_sub(t35, t364, t41 * t363);
+    let t395 = mul_sub(t41, t362, t37 * t364);
+    let t396 = mul_sub(t37, t363, t35 * t362);
+    // mass matrix of the legs
+    let t397 = t351 + t375;
+    let t398 = t336 + t369;
+    let t399 = mul_sub(t333, t382, t387);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t400 = mul_add(t57, t342, mul_add(t53, t340, t48 * t341));
+    let t401 = mul_add(t295, t295, mul_add(t293, t293, t294 * t294));
+    // constant and copied elements
+    let t402 = P::load(&prepared[40]);
+    // mass matrix of the legs
+    let t403 = mul_sub(t375, t382, t369 * t374);
+    let t404 = mul_sub(t333, t374, t368 * t375);
+    let t405 = P::triple([P::lane(t354, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t406 = mul_add(t391, t402, t390);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t407 = mul_add(t141, t390, mul_add(t205, t372, t373));
+    // mass matrix of the legs
+    let t408 = mul_sub(t321, t327, t320 * t330);
+    let t409 = mul_sub(t328, t330, t327 * t332);
+    let t410 = t392 + t393 + t405;
+    // inertia force less weight, without the actuators' own shares
+    let t411 = P::triple([P::lane(t378, 0), P::lane(t379, 0), P::lane(t380, 0)]);
+    let t412 = P::triple([P::lane(t378, 1), P::lane(t379, 1), P::lane(t380, 1)]);
+    // mass matrix of the legs
+    let t413 = mul_sub(t369, t382, t374 * t383);
+    let t414 = mul_sub(t368, t383, t334 * t382);
+    // constant and copied elements
+    let t415 = P::load(&prepared[41]);
+    // mass matrix of the legs
+    let t416 = mul_sub(t334, t374, t387);
+    let t417 = mul_add(t382, t399, mul_add(t320, t384, t328 * t370));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t418 = mul_add(t401, t415, t400);
+    // first moments by platform coordinate of the payload's inertia force
+    let t419 = mul_add(t208, P::splat(prepared[39][0]), t188 * P::splat(prepared[38][0]));
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t420 = mul_add(t136, t400, mul_add(t200, t385, t386));
+    // mass matrix of the legs
+    let t421 = mul_add(t333, t382, mul_sub(t320, t332, t321 * t328));
+    let t422 = mul_add(t382, t403, mul_sub(t320, t388, t328 * t377));
+    let t423 = mul_add(t382, t404, mul_sub(t320, t389, t328 * t376));
+    let t424 = mul_sub(t334, t368, t331 * t382);
+    let t425 = mul_sub(t331, t374, t333 * t368);
+    // inertia force less weight, without the actuators' own shares
+    let t426 = P::triple([P::lane(t378, 2), P::lane(t379, 2), P::lane(t380, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t427 = mul_add(t155, t406, t407);
+    // mass matrix of the legs
+    let t428 = P::lane(t398, 1) + P::lane(t398, 0);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t429 = neg_mul_add(t39, t359, mul_add(t34, t360, t394));
+    let t430 = neg_mul_add(t36, t360, mul_add(t39, t358, t395));
+    let t431 = neg_mul_add(t34, t358, mul_add(t36, t359, t396));
+    // mass matrix of the legs
+    let t432 = t384 + t399;
+    let t433 = t337 + t383;
+    // mass matrix M_p of the platform
+    let t434 = t388 + t403;
+    let t435 = t389 + t404;
+    let t436 = t377 + t413;
+    let t437 = t370 + t414;
+    // mass matrix of the legs
+    let t438 = t376 + t416;
+    let t439 = mul_add(t374, t414, t417);
+    // first moments by platform coordinate of the payload's inertia force
+    let t440 = mul_add(t209, P::splat(prepared[38][2]), t419);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t441 = mul_add(t148, t418, t420);
+    // mass matrix of the legs
+    let t442 = neg_mul_add(t334, t374, t421);
+    let t443 = neg_mul_add(t374, t413, t422);
+    let t444 = neg_mul_add(t374, t416, t423);
+    let t445 = P::triple([P::lane(t410, 1), P::lane(t397, 2), P::lane(t398, 2)]);
+    let t446 = P::triple([c(0.0), P::lane(t397, 1) + P::lane(t397, 0), t428]);
+    // mass matrix M_p of the platform
+    let t447 = t408 + t424;
+    let t448 = t409 + t425;
+    // inertia force less weight, without the actuators' own shares
+    let t449 = mul_add(t115, P::splat(prepared[49][0]), t411 + t412 + t426);
+    // mass matrix of the legs
+    let t450 = t445 + t446;
+    // first moments by platform coordinate of the payload's inertia force
+    let t451 = mul_sub(t115, P::splat(prepared[42][0]), t440);
+    let t452 = mul_add(t208, P::splat(prepared[38][0]), t188 * P::splat(prepared[39][1]));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t453 = mul_add(t237, t441, t247 * t427);
+    let t454 = mul_add(t248, t441, t274 * t427);
+    let t455 = mul_add(t249, t441, t275 * t427);
+    // mass matrix M_p of the platform
+    let t456 = platform_rotation[2][1] * prepared[42][1];
+    // mass matrix of the legs
+    let t457 = mul_add(t368, t414, mul_sub(t327, t370, t320 * t408));
+    let t458 = mul_add(t368, t416, mul_sub(t327, t376, t320 * t409));
+    // mass matrix M_p of the platform
+    let t459 = P::load(&prepared[43]);
+    // inertia force less weight, without the actuators' own shares
+    let t460 = mul_sub(t208, P::splat(prepared[42][0]), t449);
+    // mass matrix M_p of the platform
+    let t461 = platform_rotation[1][1] * prepared[42][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t462 = P::triple([P::lane(t249, 2), P::lane(t249, 0), P::lane(t249, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t463 = P::triple([P::lane(t237, 1), P::lane(t237, 2), P::lane(t237, 0)]);
+    // mass matrix M_p of the platform
+    let t464 = P::triple([P::lane(t434, 0), P::lane(t432, 0), P::lane(t435, 0)]);
+    let t465 = P::triple([P::lane(t434, 1), P::lane(t432, 1), P::lane(t435, 1)]);
+    // mass matrix of the legs
+    let t466 = t450 + t459;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t467 = P::triple([P::lane(t429, 0), P::lane(t430, 0), P::lane(t431, 0)]);
+    let t468 = P::triple([P::lane(t429, 1), P::lane(t430, 1), P::lane(t431, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t469 = P::triple([P::lane(t249, 1), P::lane(t249, 2), P::lane(t249, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t470 = P::triple([P::lane(t248, 2), P::lane(t248, 0), P::lane(t248, 1)]);
+    // mass matrix M_p of the platform
+    let t471 = P::triple([-P::lane(t436, 0), -P::lane(t437, 0), P::lane(t438, 0)]);
+    let t472 = P::triple([-P::lane(t436, 1), -P::lane(t437, 1), P::lane(t438, 1)]);
+    let t473 = P::mul_add(platform_rotation[2][0], prepared[42][0], t456);
+    let t474 = -P::lane(t447, 0);
+    let t475 = -P::lane(t448, 0);
+    let t476 = -P::lane(t447, 1);
+    let t477 = -P::lane(t448, 1);
+    // mass of payload and platform-side leg ends
+    let t478 = P::load(&prepared[44]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t479 = mul_add(t209, P::splat(prepared[38][1]), t452);
+    // mass matrix M_p of the platform
+    let t480 = P::mul_add(platform_rotation[1][0], prepared[42][0], t461);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t481 = P::triple([P::lane(t237, 2), P::lane(t237, 0), P::lane(t237, 1)]);
+    // mass matrix of the legs
+    let t482 = neg_mul_add(t382, t424, t457);
+    let t483 = neg_mul_add(t382, t425, t458);
+    let t484 = P::triple([P::lane(t410, 2), P::lane(t450, 2), P::lane(t433, 2)]);
+    let t485 = P::triple([c(0.0), c(0.0), P::lane(t433, 1) + P::lane(t433, 0)]);
+    let t486 = P::triple([P::lane(t443, 0), -P::lane(t439, 0), P::lane(t444, 0)]);
+    let t487 = P::triple([P::lane(t443, 1), -P::lane(t439, 1), P::lane(t444, 1)]);
+    let t488 = P::triple([P::lane(t442, 1), t476, t477]);
+    // mass matrix M_p of the platform
+    let t489 = P::triple([P::lane(t434, 2), P::lane(t432, 2), P::lane(t435, 2)]);
+    let t490 = t410 + t478;
+    // inertia force less weight, without the actuators' own shares
+    let t491 = mul_add(t188, P::splat(prepared[42][1]), t460);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t492 = P::triple([P::lane(t429, 2), P::lane(t430, 2), P::lane(t431, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t493 = t466 * P::splat(platform_acceleration[1]);
+    // mass matrix M_p of the platform
+    let t494 = platform_rotation[0][1] * prepared[42][1];
+    // legs 3, 5, 1: gradient of the actuator length
+    let t495 = P::triple([P::lane(t248, 1), P::lane(t248, 2), P::lane(t248, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t496 = mul_sub(t469, t481, t462 * t463);
+    // mass matrix of the legs
+    let t497 = P::triple([P::lane(t442, 0), t474, t475]) + t488;
+    // mass matrix M_p of the platform
+    let t498 = t464 + t465 + t489;
+    let t499 = P::triple([-P::lane(t436, 2), -P::lane(t437, 2), P::lane(t438, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t500 = t467 + t468 + t492;
+    // force along the actuator that balances the remaining wrench
+    let t501 = mul_sub(t462, t495, t469 * t470);
+    // mass matrix M_p of the platform
+    let t502 = -P::lane(t447, 2);
+    let t503 = -P::lane(t448, 2);
+    let t504 = t471 + t472 + t499;
+    let t505 = P::mul_add(platform_rotation[2][2], prepared[42][2], t473);
+    // constant and copied elements
+    let t506 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t507 = P::triple([P::lane(t443, 2), -P::lane(t439, 2), P::lane(t444, 2)]);
+    let t508 = P::load(&prepared[45]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t509 = mul_sub(t115, P::splat(prepared[42][1]), t479);
+    let t510 = mul_add(t208, P::splat(prepared[38][2]), t188 * P::splat(prepared[38][1]));
+    let t511 = P::triple([P::lane(t451, 2), P::lane(t451, 0), P::lane(t451, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t512 = P::triple([P::lane(t453, 0), P::lane(t454, 0), P::lane(t455, 0)]);
+    let t513 = P::triple([P::lane(t453, 1), P::lane(t454, 1), P::lane(t455, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t514 = mul_add(t490, P::splat(platform_acceleration[0]), t493);
+    // mass matrix M_p of the platform
+    let t515 = P::mul_add(platform_rotation[1][2], prepared[42][2], t480);
+    let t516 = P::mul_add(platform_rotation[0][0], prepared[42][0], t494);
+    // inertia less external wrench that the actuators must balance
+    let t517 = P::splat(parameters.payload_com[1]) * t506;
+    // mass matrix of the legs
+    let t518 = mul_add(t374, t425, mul_sub(t328, t409, t327 * t389));
+    let t519 = t486 + t487 + t507;
+    let t520 = t497 + P::triple([P::lane(t442, 2), t502, t503]);
+    let t521 = t484 + t485 + t508;
+    // inertia force less weight, without the actuators' own shares
+    let t522 = mul_add(t209, P::splat(prepared[42][2]), t491);
+    // constant and copied elements
+    let t523 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t524 = P::triple([P::lane(t453, 2), P::lane(t454, 2), P::lane(t455, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t525 = mul_add(P::splat(parameters.payload_com[0]), t523, t517);
+    // force along the actuator that balances the remaining wrench
+    let t526 = t274 * P::splat(P::lane(t496, 0));
+    // mass matrix M_p of the platform
+    let t527 = platform_rotation[0][1] * prepared[38][0];
+    // first moments by platform coordinate of the payload's inertia force
+    let t528 = mul_add(t209, P::splat(prepared[39][2]), t510);
+    // rotation of the platform seen from the base
+    let t529 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t530 = P::triple([P::lane(t451, 1), P::lane(t451, 2), P::lane(t451, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t531 = mul_add(t521, P::splat(platform_acceleration[2]), t514);
+    // mass matrix M_p of the platform
+    let t532 = t515 + P::lane(t504, 0);
+    mass_matrix_p[2][3] = t532;
+    mass_matrix_p[3][2] = t532;
+    let t533 = P::mul_add(platform_rotation[0][2], prepared[42][2], t516);
+    // force along the actuator that balances the remaining wrench
+    let t534 = mul_sub(t463, t470, t481 * t495);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t535 = mul_sub(t275, t374, t274 * t382);
+    let t536 = mul_sub(t247, t382, t275 * t368);
+    let t537 = mul_sub(t274, t368, t247 * t374);
+    // mass matrix of the legs
+    let t538 = neg_mul_add(t368, t404, t518);
+    let t539 = P::lane(t483, 1) + P::lane(t483, 0);
+    // moment of the inertia force about the platform origin
+    let t540 = neg_mul_add(t529, t530, mul_add(t143, t511, t500));
+    // constant and copied elements
+    let t541 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t542 = -P::lane(t520, 0);
+    mass_matrix_p[0][3] = t542;
+    mass_matrix_p[3][0] = t542;
+    // mass matrix M_p of the platform
+    let t543 = -(t505 + P::lane(t498, 0));
+    mass_matrix_p[1][3] = t543;
+    mass_matrix_p[3][1] = t543;
+    // constant and copied elements
+    let t544 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t545 = mul_add(t247, P::splat(P::lane(t501, 0)), t526);
+    let t546 = P::lane(t237, 1) * P::lane(t501, 1);
+    // mass matrix M_p of the platform
+    let t547 = P::mul_add(platform_rotation[0][0], prepared[39][0], t527);
+    // constant and copied elements
+    let t548 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t549 = mul_add(P::splat(P::lane(t522, 0)), t541, t512 + t513 + t524);
+    // mass matrix of the legs
+    let t550 = P::triple([t542, t543, t532]);
+    // inertia less external wrench that the actuators must balance
+    let t551 = mul_add(P::splat(parameters.payload_com[2]), t544, t525);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t552 = mul_sub(t249, t328, t248 * t320);
+    let t553 = mul_sub(t237, t320, t249 * t327);
+    let t554 = mul_sub(t248, t327, t237 * t328);
+    // mass matrix of the legs
+    let t555 = P::triple([P::lane(t519, 1), P::lane(t482, 2), P::lane(t483, 2)]);
+    let t556 = P::triple([c(0.0), P::lane(t482, 1) + P::lane(t482, 0), t539]);
+    // mass matrix M_p of the platform
+    let t557 = platform_rotation[0][1] * prepared[39][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t558 = mul_sub(t115, P::splat(prepared[42][2]), t528);
+    let t559 = P::triple([P::lane(t509, 2), P::lane(t509, 0), P::lane(t509, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t560 = mul_add(t550, P::splat(platform_acceleration[3]), t531);
+    // mass matrix M_p of the platform
+    let t561 = t505 + P::lane(t520, 1);
+    mass_matrix_p[0][4] = t561;
+    mass_matrix_p[4][0] = t561;
+    let t562 = P::lane(t504, 1) - t533;
+    mass_matrix_p[2][4] = t562;
+    mass_matrix_p[4][2] = t562;
+    let t563 = P::lane(t520, 2) - t515;
+    mass_matrix_p[0][5] = t563;
+    mass_matrix_p[5][0] = t563;
+    let t564 = t533 - P::lane(t498, 2);
+    mass_matrix_p[1][5] = t564;
+    mass_matrix_p[5][1] = t564;
+    // mass matrix of the legs
+    let t565 = t555 + t556;
+    // force along the actuator that balances the remaining wrench
+    let t566 = P::mul_add(P::lane(t237, 0), P::lane(t501, 0), t546);
+    // constant and copied elements
+    let t567 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t568 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix of the legs
+    let t569 = -P::lane(t504, 2);
+    mass_matrix_p[2][5] = t569;
+    mass_matrix_p[5][2] = t569;
+    // force along the actuator that balances the remaining wrench
+    let t570 = mul_add(t275, P::splat(P::lane(t534, 0)), t545);
+    let t571 = t274 * P::splat(P::lane(t496, 1));
+    // mass matrix M_p of the platform
+    let t572 = P::mul_add(platform_rotation[0][2], prepared[38][2], t547);
+    // constant and copied elements
+    let t573 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t574 = P::mul_add(platform_rotation[0][0], prepared[38][0], t557);
+    let t575 = mul_add(P::splat(prepared[39][0]), t567, P::splat(prepared[38][0]) * t548);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t576 = mul_add(P::splat(P::lane(t522, 1)), t568, t549);
+    // mass matrix M_p of the platform
+    let t577 = P::triple([t561, P::lane(t498, 1), t562]);
+    let t578 = P::triple([t563, t564, t569]);
+    // constant and copied elements
+    let t579 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t580 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t581 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t582 = t519 + P::load(&prepared[46]);
+    let t583 = platform_rotation[0][1] * prepared[38][1];
+    // rotation of the platform seen from the base
+    let t584 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t585 = P::triple([P::lane(t509, 1), P::lane(t509, 2), P::lane(t509, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t586 = mul_add(t441, t552, t427 * t535);
+    let t587 = mul_add(t441, t553, t427 * t536);
+    let t588 = mul_add(t441, t554, t427 * t537);
+    // inertia less external wrench that the actuators must balance
+    let t589 = mul_sub(t578, P::splat(platform_acceleration[5]), t579);
+    // moment of the inertia force about the platform origin
+    let t590 = neg_mul_add(t584, t585, mul_add(t134, t559, t540));
+    // force along the actuator that balances the remaining wrench
+    let t591 = mul_add(t247, P::splat(P::lane(t501, 1)), t571);
+    let t592 = P::mul_add(P::lane(t237, 2), P::lane(t501, 2), t566);
+    // constant and copied elements
+    let t593 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t594 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t595 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t596 = t274 * P::splat(P::lane(t496, 2));
+    // mass matrix M_p of the platform
+    let t597 = neg_mul_add(P::splat(t572), t593, t582);
+    let t598 = P::mul_add(platform_rotation[0][2], prepared[38][1], t574);
+    let t599 = P::mul_add(platform_rotation[0][0], prepared[38][2], t583);
+    let t600 = P::load(&prepared[47]);
+    let t601 = mul_add(P::splat(prepared[38][0]), t567, P::splat(prepared[39][1]) * t548);
+    let t602 = mul_add(P::splat(prepared[39][0]), t593, P::splat(prepared[38][0]) * t573);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t603 = mul_add(P::splat(P::lane(t522, 2)), t595, t576);
+    // constant and copied elements
+    let t604 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t605 = P::triple([P::lane(t551, 1), P::lane(t551, 2), P::lane(t551, 0)]);
+    // mass matrix of the legs
+    let t606 = P::triple([P::lane(t519, 2), P::lane(t565, 2), P::lane(t538, 2)]);
+    let t607 = P::triple([c(0.0), c(0.0), P::lane(t538, 1) + P::lane(t538, 0)]);
+    let t608 = t565 + t600;
+    // first moments by platform coordinate of the payload's inertia force
+    let t609 = P::triple([P::lane(t558, 2), P::lane(t558, 0), P::lane(t558, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t610 = mul_add(t577, P::splat(platform_acceleration[4]), t560) + t589;
+    // mass matrix M_p of the platform
+    let t611 = P::triple([t543, P::lane(t498, 1), t564]);
+    // inertia less external wrench that the actuators must balance
+    let t612 = neg_mul_add(t604, t605, mul_add(t551, t581, t580));
+    let t613 = P::splat(platform_acceleration[1]) * t611;
+    // force along the actuator that balances the remaining wrench
+    let t614 = mul_add(t275, P::splat(P::lane(t534, 1)), t591);
+    let t615 = mul_add(t247, P::splat(P::lane(t501, 2)), t596);
+    let t616 = mul_sub(t536, P::splat(t592), t570 * P::splat(P::lane(t553, 0)));
+    let t617 = mul_sub(t537, P::splat(t592), t570 * P::splat(P::lane(t554, 0)));
+    // constant and copied elements
+    let t618 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t619 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t620 = neg_mul_add(t573, P::splat(t598), t597);
+    let t621 = P::mul_add(platform_rotation[0][2], prepared[39][2], t599);
+    let t622 = neg_mul_add(mul_add(P::splat(prepared[38][2]), t594, t575), t619, t608);
+    let t623 = mul_add(P::splat(prepared[38][2]), t567, P::splat(prepared[38][1]) * t548);
+    let t624 = P::load(&prepared[48]);
+    let t625 = mul_add(P::splat(prepared[38][2]), t618, t602);
+    let t626 = mul_add(P::splat(prepared[38][0]), t593, P::splat(prepared[39][1]) * t573);
+    // inertia less external wrench that the actuators must balance
+    let t627 = t603 + t610;
+    // mass matrix of the legs
+    let t628 = P::triple([t542, t561, t563]);
+    // mass matrix M_p of the platform
+    let t629 = P::triple([t532, t562, t569]);
+    // mass matrix of the legs
+    let t630 = t606 + t607 + t624;
+    // rotation of the platform seen from the base
+    let t631 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t632 = P::triple([P::lane(t558, 1), P::lane(t558, 2), P::lane(t558, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t633 = P::triple([P::lane(t586, 0), P::lane(t587, 0), P::lane(t588, 0)]);
+    let t634 = P::triple([P::lane(t586, 1), P::lane(t587, 1), P::lane(t588, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t635 = neg_mul_add(P::splat(platform_acceleration[2]), t629, t612);
+    // moment of the inertia force about the platform origin
+    let t636 = neg_mul_add(t631, t632, mul_add(t144, t609, t590));
+    // force along the actuator that balances the remaining wrench
+    let t637 = mul_add(t275, P::splat(P::lane(t534, 2)), t615);
+    let t638 = neg_mul_add(P::splat(P::lane(t553, 1)), t614, t616);
+    let t639 = neg_mul_add(P::splat(P::lane(t554, 1)), t614, t617);
+    // constant and copied elements
+    let t640 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t641 = neg_mul_add(t618, P::splat(t621), t620);
+    let t642 = neg_mul_add(mul_add(P::splat(prepared[38][1]), t594, t601), t640, t622);
+    let t643 = neg_mul_add(P::splat(platform_rotation[2][0]), t625, t630);
+    let t644 = mul_add(P::splat(prepared[38][1]), t618, t626);
+    let t645 = mul_add(P::splat(prepared[38][2]), t593, P::splat(prepared[38][1]) * t573);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t646 = P::triple([P::lane(t586, 2), P::lane(t587, 2), P::lane(t588, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t647 = t635 - mul_add(P::splat(platform_acceleration[0]), t628, t613);
+    // force along the actuator that balances the remaining wrench
+    let t648 = neg_mul_add(P::splat(P::lane(t553, 2)), t637, t638);
+    let t649 = neg_mul_add(P::splat(P::lane(t554, 2)), t637, t639);
+    // constant and copied elements
+    let t650 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t651 = t496 * P::splat(P::lane(t627, 1));
+    // mass matrix M_p of the platform
+    let t652 = neg_mul_add(mul_add(P::splat(prepared[39][2]), t594, t623), t650, t642);
+    let t653 = neg_mul_add(P::splat(platform_rotation[2][1]), t644, t643);
+    let t654 = mul_add(P::splat(prepared[39][2]), t618, t645);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t655 = neg_mul_add(t541, P::splat(P::lane(t636, 0)), t633 + t634 + t646);
+    // inertia less external wrench that the actuators must balance
+    let t656 = neg_mul_add(P::splat(platform_acceleration[3]), t641, t647);
+    // force along the actuator that balances the remaining wrench
+    let t657 = mul_sub(t535, P::splat(t592), t570 * P::splat(P::lane(t552, 0)));
+    let t658 = mul_add(t501, P::splat(P::lane(t627, 0)), t651);
+    // mass matrix M_p of the platform
+    let t659 = neg_mul_add(P::splat(platform_rotation[2][2]), t654, t653);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t660 = mul_sub(t568, P::splat(P::lane(t636, 1)), t655);
+    // inertia less external wrench that the actuators must balance
+    let t661 = neg_mul_add(P::splat(platform_acceleration[4]), t652, t656);
+    // force along the actuator that balances the remaining wrench
+    let t662 = mul_add(t534, P::splat(P::lane(t627, 2)), t658);
+    let t663 = neg_mul_add(t614, P::splat(P::lane(t552, 1)), t657);
+    let t664 = P::triple([P::lane(t648, 2), P::lane(t648, 0), P::lane(t648, 1)]);
+    let t665 = P::triple([P::lane(t649, 1), P::lane(t649, 2), P::lane(t649, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t666 = mul_add(t595, P::splat(P::lane(t636, 2)), t660);
+    // force along the actuator that balances the remaining wrench
+    let t667 = P::triple([P::lane(t648, 1), P::lane(t648, 2), P::lane(t648, 0)]);
+    let t668 = P::triple([P::lane(t649, 2), P::lane(t649, 0), P::lane(t649, 1)]);
+    let t669 = neg_mul_add(t637, P::splat(P::lane(t552, 2)), t663);
+    let t670 = mul_sub(t667, t668, t664 * t665);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t671 = P::triple([P::lane(t552, 0), P::lane(t553, 0), P::lane(t554, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t672 = t666 + neg_mul_add(P::splat(platform_acceleration[5]), t659, t661);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t673 = P::triple([P::lane(t552, 1), P::lane(t553, 1), P::lane(t554, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t674 = mul_add(P::splat(t592), t672, P::splat(P::lane(t662, 0)) * t671);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t675 = P::triple([P::lane(t552, 2), P::lane(t553, 2), P::lane(t554, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t676 = P::lane(t669, 1) * P::lane(t670, 1);
+    let t677 = P::triple([P::lane(t669, 1), P::lane(t669, 2), P::lane(t669, 0)]);
+    let t678 = mul_add(P::splat(P::lane(t662, 1)), t673, t674);
+    let t679 = P::triple([P::lane(t669, 2), P::lane(t669, 0), P::lane(t669, 1)]);
+    let t680 = P::mul_add(P::lane(t669, 0), P::lane(t670, 0), t676);
+    let t681 = mul_add(P::splat(P::lane(t662, 2)), t675, t678);
+    let t682 = P::triple([P::lane(t570, 0), P::lane(t614, 0), P::lane(t637, 0)]);
+    let t683 = mul_sub(t664, t677, t667 * t679);
+    let t684 = c(1.0) / P::mul_add(P::lane(t669, 2), P::lane(t670, 2), t680);
+    let t685 = P::triple([P::lane(t570, 1), P::lane(t614, 1), P::lane(t637, 1)]);
+    let t686 = mul_sub(t665, t679, t668 * t677) * P::splat(P::lane(t681, 1));
+    let t687 = mul_add(t670, P::splat(P::lane(t681, 0)), t686);
+    let t688 = P::triple([P::lane(t570, 2), P::lane(t614, 2), P::lane(t637, 2)]);
+    let t689 = P::splat(t684) * mul_add(t683, P::splat(P::lane(t681, 2)), t687);
+    // inertia less external wrench that the actuators must balance
+    let t690 = -P::lane(t672, 0);
+    let t691 = -P::lane(t672, 1);
+    // force along the actuator that balances the remaining wrench
+    let t692 = -t689;
+    let t693 = mul_add(t682, P::splat(P::lane(t689, 0)), t662);
+    // inertia less external wrench that the actuators must balance
+    let t694 = -P::lane(t672, 2);
+    // force along the actuator that balances the remaining wrench
+    let t695 = mul_add(t685, P::splat(P::lane(t689, 1)), t693);
+    let t696 = mul_add(t688, P::splat(P::lane(t689, 2)), t695);
+    let t697 = P::splat(c(1.0) / t592) * t696;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t692, t697],
+        &[
+            [t247, t237],
+            [t274, t248],
+            [t275, t249],
+            [t535, t552],
+            [t536, t553],
+            [t537, t554],
+        ],
+        &[P::lane(t627, 0), P::lane(t627, 1), P::lane(t627, 2), t690, t691, t694],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t179, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t172, 0);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t179, 1);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t172, 1);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t179, 2);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t172, 2);
+    // leg 1: rate of the rod's extent along the actuator axis
+    actuator_velocity[0] = P::lane(t226, 0);
+    // leg 2: rate of the rod's extent along the actuator axis
+    actuator_velocity[1] = P::lane(t207, 0);
+    // leg 3: rate of the rod's extent along the actuator axis
+    actuator_velocity[2] = P::lane(t226, 1);
+    // leg 4: rate of the rod's extent along the actuator axis
+    actuator_velocity[3] = P::lane(t207, 1);
+    // leg 5: rate of the rod's extent along the actuator axis
+    actuator_velocity[4] = P::lane(t226, 2);
+    // leg 6: rate of the rod's extent along the actuator axis
+    actuator_velocity[5] = P::lane(t207, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t237, 0);
+    jacobian_dp[0][1] = P::lane(t248, 0);
+    jacobian_dp[0][2] = P::lane(t249, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t552, 0);
+    jacobian_dp[0][4] = P::lane(t553, 0);
+    jacobian_dp[0][5] = P::lane(t554, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t247, 0);
+    jacobian_dp[1][1] = P::lane(t274, 0);
+    jacobian_dp[1][2] = P::lane(t275, 0);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t535, 0);
+    jacobian_dp[1][4] = P::lane(t536, 0);
+    jacobian_dp[1][5] = P::lane(t537, 0);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t237, 1);
+    jacobian_dp[2][1] = P::lane(t248, 1);
+    jacobian_dp[2][2] = P::lane(t249, 1);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t552, 1);
+    jacobian_dp[2][4] = P::lane(t553, 1);
+    jacobian_dp[2][5] = P::lane(t554, 1);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t247, 1);
+    jacobian_dp[3][1] = P::lane(t274, 1);
+    jacobian_dp[3][2] = P::lane(t275, 1);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t535, 1);
+    jacobian_dp[3][4] = P::lane(t536, 1);
+    jacobian_dp[3][5] = P::lane(t537, 1);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t237, 2);
+    jacobian_dp[4][1] = P::lane(t248, 2);
+    jacobian_dp[4][2] = P::lane(t249, 2);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t552, 2);
+    jacobian_dp[4][4] = P::lane(t553, 2);
+    jacobian_dp[4][5] = P::lane(t554, 2);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t247, 2);
+    jacobian_dp[5][1] = P::lane(t274, 2);
+    jacobian_dp[5][2] = P::lane(t275, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t535, 2);
+    jacobian_dp[5][4] = P::lane(t536, 2);
+    jacobian_dp[5][5] = P::lane(t537, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t490, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t410, 1);
+    mass_matrix_p[0][2] = P::lane(t410, 2);
+    mass_matrix_p[1][0] = P::lane(t410, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t466, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t450, 2);
+    mass_matrix_p[1][4] = P::lane(t498, 1);
+    mass_matrix_p[2][0] = P::lane(t410, 2);
+    mass_matrix_p[2][1] = P::lane(t450, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t521, 2);
+    mass_matrix_p[3][3] = P::lane(t641, 0);
+    mass_matrix_p[3][4] = P::lane(t641, 1);
+    mass_matrix_p[3][5] = P::lane(t641, 2);
+    // mass matrix of the legs
+    mass_matrix_p[4][1] = P::lane(t498, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[4][3] = P::lane(t641, 1);
+    mass_matrix_p[4][4] = P::lane(t652, 1);
+    mass_matrix_p[4][5] = P::lane(t652, 2);
+    mass_matrix_p[5][3] = P::lane(t641, 2);
+    mass_matrix_p[5][4] = P::lane(t652, 2);
+    mass_matrix_p[5][5] = P::lane(t659, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t603, 0);
+    total_bias[1] = P::lane(t603, 1);
+    total_bias[2] = P::lane(t603, 2);
+    total_bias[3] = -P::lane(t666, 0);
+    total_bias[4] = -P::lane(t666, 1);
+    total_bias[5] = -P::lane(t666, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// What follows from the parameters alone, for \`forward_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 54x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 54],
+) {
+    let c = T::constant;
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t1 = parameters.rod_length[0] * parameters.rod_length[0];
+    prepared[17][0] = t1;
+    let t2 = parameters.rod_length[1] * parameters.rod_length[1];
+    prepared[17][1] = t2;
+    let t3 = parameters.rod_length[2] * parameters.rod_length[2];
+    prepared[17][2] = t3;
+    prepared[17][3] = t3;
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t4 = parameters.rod_length[3] * parameters.rod_length[3];
+    prepared[19][0] = t4;
+    let t5 = parameters.rod_length[4] * parameters.rod_length[4];
+    prepared[19][1] = t5;
+    let t6 = parameters.rod_length[5] * parameters.rod_length[5];
+    prepared[19][2] = t6;
+    prepared[19][3] = t6;
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t7 = parameters.rod_inertia[3] / t4;
+    let t8 = parameters.rod_inertia[4] / t5;
+    let t9 = parameters.rod_inertia[5] / t6;
+    let t10 = c(1.0) - parameters.rod_com_fraction[3];
+    let t11 = c(1.0) - parameters.rod_com_fraction[4];
+    let t12 = c(1.0) - parameters.rod_com_fraction[5];
+    let t13 = mul_add(t10, parameters.rod_mass[3] * t10, t7);
+    prepared[22][0] = t13;
+    let t14 = mul_add(t11, parameters.rod_mass[4] * t11, t8);
+    prepared[22][1] = t14;
+    let t15 = mul_add(t12, parameters.rod_mass[5] * t12, t9);
+    prepared[22][2] = t15;
+    prepared[22][3] = t15;
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t16 = parameters.rod_inertia[0] / t1;
+    let t17 = parameters.rod_inertia[1] / t2;
+    let t18 = parameters.rod_inertia[2] / t3;
+    let t19 = c(1.0) - parameters.rod_com_fraction[0];
+    let t20 = c(1.0) - parameters.rod_com_fraction[1];
+    let t21 = c(1.0) - parameters.rod_com_fraction[2];
+    let t22 = mul_add(t19, parameters.rod_mass[0] * t19, t16);
+    prepared[20][0] = t22;
+    let t23 = mul_add(t20, parameters.rod_mass[1] * t20, t17);
+    prepared[20][1] = t23;
+    let t24 = mul_add(t21, parameters.rod_mass[2] * t21, t18);
+    prepared[20][2] = t24;
+    prepared[20][3] = t24;
+    // legs 4, 5, 6: leg mass that moves with the platform joint
+    let t25 = parameters.rod_com_fraction[3] * parameters.rod_mass[3];
+    let t26 = parameters.rod_com_fraction[4] * parameters.rod_mass[4];
+    let t27 = parameters.rod_com_fraction[5] * parameters.rod_mass[5];
+    let t28 = mul_add(parameters.rod_com_fraction[3], t25, t7);
+    let t29 = mul_add(parameters.rod_com_fraction[4], t26, t8);
+    let t30 = mul_add(parameters.rod_com_fraction[5], t27, t9);
+    // legs 1, 2, 3: leg mass that moves with the platform joint
+    let t31 = parameters.rod_com_fraction[0] * parameters.rod_mass[0];
+    let t32 = parameters.rod_com_fraction[1] * parameters.rod_mass[1];
+    let t33 = parameters.rod_com_fraction[2] * parameters.rod_mass[2];
+    let t34 = mul_add(parameters.rod_com_fraction[0], t31, t16);
+    let t35 = mul_add(parameters.rod_com_fraction[1], t32, t17);
+    let t36 = mul_add(parameters.rod_com_fraction[2], t33, t18);
+    // second moment of payload and platform-side leg ends
+    let t37 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t38 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t39 = t38 + parameters.payload_inertia[2][2];
+    let t40 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t41 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+    let t42 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t43 = t28 * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+    let t44 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t45 = t29 * (parameters.platform_point[4][0] * parameters.platform_point[4][0]);
+    let t46 = mul_add(t34, t42, t43) + mul_add(t35, t44, t45);
+    let t47 = mul_add(t39, c(0.5), mul_add(t36, t40, t41) + t46);
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    let t49 = mul_add(parameters.payload_mass, t37, t48);
+    prepared[51][0] = t49;
+    let t50 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t51 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t52 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+    let t55 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t56 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+    let t57 = mul_add(t34, t53, t54) + mul_add(t35, t55, t56);
+    let t58 = mul_add(t39, c(0.5), mul_add(t36, t51, t52) + t57);
+    let t59 = t58 - parameters.payload_inertia[1][1];
+    let t60 = mul_add(parameters.payload_mass, t50, t59);
+    prepared[51][1] = t60;
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t63 = t30 * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+    let t64 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t65 = t28 * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+    let t66 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t67 = t29 * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+    let t68 = mul_add(t34, t64, t65) + mul_add(t35, t66, t67);
+    let t69 = mul_add(t39, c(0.5), mul_add(t36, t62, t63) + t68);
+    let t70 = t69 - parameters.payload_inertia[2][2];
+    let t71 = mul_add(parameters.payload_mass, t61, t70);
+    prepared[51][2] = t71;
+    prepared[51][3] = t71;
+    let t72 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t73 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t74 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][0]);
+    let t75 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t76 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][0]);
+    let t77 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t78 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][0]);
+    let t79 = mul_add(t34, t75, t76) + mul_add(t35, t77, t78);
+    let t80 = mul_add(t36, t73, t74) + t79;
+    let t81 = mul_add(t72, parameters.payload_mass, t80);
+    prepared[49][0] = t81 - parameters.payload_inertia[0][1];
+    let t82 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t83 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t84 = t30 * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+    let t85 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t86 = t28 * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+    let t87 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t88 = t29 * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+    let t89 = mul_add(t34, t85, t86) + mul_add(t35, t87, t88);
+    let t90 = mul_add(t36, t83, t84) + t89;
+    let t91 = mul_add(t82, parameters.payload_mass, t90);
+    prepared[49][1] = t91 - parameters.payload_inertia[1][2];
+    let t92 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t93 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t94 = t30 * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+    let t95 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t96 = t28 * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+    let t97 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t98 = t29 * (parameters.platform_point[4][0] * parameters.platform_point[4][2]);
+    let t99 = mul_add(t34, t95, t96) + mul_add(t35, t97, t98);
+    let t100 = mul_add(t36, t93, t94) + t99;
+    let t101 = mul_add(t92, parameters.payload_mass, t100);
+    let t102 = t101 - parameters.payload_inertia[0][2];
+    prepared[49][2] = t102;
+    prepared[49][3] = t102;
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t103 = t22 + parameters.mover_mass[0];
+    prepared[23][0] = t103;
+    let t104 = t23 + parameters.mover_mass[1];
+    prepared[23][1] = t104;
+    let t105 = t24 + parameters.mover_mass[2];
+    prepared[23][2] = t105;
+    prepared[23][3] = t105;
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t106 = neg_mul_add(t31, t19, t16);
+    prepared[26][0] = t106;
+    let t107 = neg_mul_add(t32, t20, t17);
+    prepared[26][1] = t107;
+    let t108 = neg_mul_add(t33, t21, t18);
+    prepared[26][2] = t108;
+    prepared[26][3] = t108;
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t109 = c(1.0) / t103;
+    let t110 = c(1.0) / t104;
+    let t111 = c(1.0) / t105;
+    let t112 = t109 * (t106 * t106);
+    prepared[29][0] = t112;
+    let t113 = t110 * (t107 * t107);
+    prepared[29][1] = t113;
+    let t114 = t111 * (t108 * t108);
+    prepared[29][2] = t114;
+    prepared[29][3] = t114;
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t115 = t13 + parameters.mover_mass[3];
+    prepared[25][0] = t115;
+    let t116 = t14 + parameters.mover_mass[4];
+    prepared[25][1] = t116;
+    let t117 = t15 + parameters.mover_mass[5];
+    prepared[25][2] = t117;
+    prepared[25][3] = t117;
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t118 = neg_mul_add(t25, t10, t7);
+    prepared[27][0] = t118;
+    let t119 = neg_mul_add(t26, t11, t8);
+    prepared[27][1] = t119;
+    let t120 = neg_mul_add(t27, t12, t9);
+    prepared[27][2] = t120;
+    prepared[27][3] = t120;
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t121 = c(1.0) / t115;
+    let t122 = c(1.0) / t116;
+    let t123 = c(1.0) / t117;
+    let t124 = t121 * (t118 * t118);
+    prepared[41][0] = t124;
+    let t125 = t122 * (t119 * t119);
+    prepared[41][1] = t125;
+    let t126 = t123 * (t120 * t120);
+    prepared[41][2] = t126;
+    prepared[41][3] = t126;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    prepared[28][0] = t109 * t106;
+    prepared[28][1] = t110 * t107;
+    let t127 = t111 * t108;
+    prepared[28][2] = t127;
+    prepared[28][3] = t127;
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    prepared[31][0] = t121 * t118;
+    prepared[31][1] = t122 * t119;
+    let t128 = t123 * t120;
+    prepared[31][2] = t128;
+    prepared[31][3] = t128;
+    // mass matrix in base coordinates
+    prepared[34][0] = parameters.actuator_axis[0][0] * (parameters.actuator_axis[0][0] * t112);
+    prepared[34][1] = parameters.actuator_axis[1][0] * (parameters.actuator_axis[1][0] * t113);
+    let t129 = parameters.actuator_axis[2][0] * (parameters.actuator_axis[2][0] * t114);
+    prepared[34][2] = t129;
+    prepared[34][3] = t129;
+    let t130 = parameters.actuator_axis[0][1] * t112;
+    prepared[35][0] = parameters.actuator_axis[0][1] * t130;
+    let t131 = parameters.actuator_axis[1][1] * t113;
+    prepared[35][1] = parameters.actuator_axis[1][1] * t131;
+    let t132 = parameters.actuator_axis[2][1] * t114;
+    let t133 = parameters.actuator_axis[2][1] * t132;
+    prepared[35][2] = t133;
+    prepared[35][3] = t133;
+    let t134 = parameters.actuator_axis[0][2] * t112;
+    prepared[36][0] = parameters.actuator_axis[0][2] * t134;
+    let t135 = parameters.actuator_axis[1][2] * t113;
+    prepared[36][1] = parameters.actuator_axis[1][2] * t135;
+    let t136 = parameters.actuator_axis[2][2] * t114;
+    let t137 = parameters.actuator_axis[2][2] * t136;
+    prepared[36][2] = t137;
+    prepared[36][3] = t137;
+    prepared[37][0] = parameters.actuator_axis[0][0] * t130;
+    prepared[37][1] = parameters.actuator_axis[1][0] * t131;
+    let t138 = parameters.actuator_axis[2][0] * t132;
+    prepared[37][2] = t138;
+    prepared[37][3] = t138;
+    prepared[38][0] = parameters.actuator_axis[0][0] * t134;
+    prepared[38][1] = parameters.actuator_axis[1][0] * t135;
+    let t139 = parameters.actuator_axis[2][0] * t136;
+    prepared[38][2] = t139;
+    prepared[38][3] = t139;
+    prepared[39][0] = parameters.actuator_axis[0][1] * t134;
+    prepared[39][1] = parameters.actuator_axis[1][1] * t135;
+    let t140 = parameters.actuator_axis[2][1] * t136;
+    prepared[39][2] = t140;
+    prepared[39][3] = t140;
+    prepared[43][0] = parameters.actuator_axis[3][0] * t124;
+    prepared[43][1] = parameters.actuator_axis[4][0] * t125;
+    let t141 = parameters.actuator_axis[5][0] * t126;
+    prepared[43][2] = t141;
+    prepared[43][3] = t141;
+    prepared[44][0] = parameters.actuator_axis[3][1] * t124;
+    prepared[44][1] = parameters.actuator_axis[4][1] * t125;
+    let t142 = parameters.actuator_axis[5][1] * t126;
+    prepared[44][2] = t142;
+    prepared[44][3] = t142;
+    prepared[45][0] = parameters.actuator_axis[3][2] * t124;
+    prepared[45][1] = parameters.actuator_axis[4][2] * t125;
+    let t143 = parameters.actuator_axis[5][2] * t126;
+    prepared[45][2] = t143;
+    prepared[45][3] = t143;
+    let t144 = t71 + (t49 + t60);
+    prepared[53][1] = t144;
+    prepared[53][2] = t144;
+    prepared[53][3] = t144;
+    // first moment of payload and platform-side leg ends
+    let t145 = parameters.platform_point[5][0] * t30;
+    let t146 = parameters.platform_point[3][0] * t28;
+    let t147 = parameters.platform_point[4][0] * t29;
+    let t148 = mul_add(parameters.platform_point[1][0], t35, t147);
+    let t149 = mul_add(parameters.platform_point[0][0], t34, t146) + t148;
+    let t150 = mul_add(parameters.platform_point[2][0], t36, t145) + t149;
+    prepared[50][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t150);
+    let t151 = parameters.platform_point[5][1] * t30;
+    let t152 = parameters.platform_point[3][1] * t28;
+    let t153 = parameters.platform_point[4][1] * t29;
+    let t154 = mul_add(parameters.platform_point[1][1], t35, t153);
+    let t155 = mul_add(parameters.platform_point[0][1], t34, t152) + t154;
+    let t156 = mul_add(parameters.platform_point[2][1], t36, t151) + t155;
+    prepared[50][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t156);
+    let t157 = parameters.platform_point[5][2] * t30;
+    let t158 = parameters.platform_point[3][2] * t28;
+    let t159 = parameters.platform_point[4][2] * t29;
+    let t160 = mul_add(parameters.platform_point[1][2], t35, t159);
+    let t161 = mul_add(parameters.platform_point[0][2], t34, t158) + t160;
+    let t162 = mul_add(parameters.platform_point[2][2], t36, t157) + t161;
+    let t163 = mul_add(parameters.payload_com[2], parameters.payload_mass, t162);
+    prepared[50][2] = t163;
+    prepared[50][3] = t163;
+    // mass of payload and platform-side leg ends
+    let t164 = t30 + t36 + (t28 + t34 + (t29 + t35));
+    prepared[53][0] = parameters.payload_mass + t164;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.base_point[0][1];
+    prepared[5][1] = parameters.base_point[1][1];
+    prepared[5][2] = parameters.base_point[2][1];
+    prepared[5][3] = parameters.base_point[2][1];
+    prepared[6][0] = parameters.base_point[0][0];
+    prepared[6][1] = parameters.base_point[1][0];
+    prepared[6][2] = parameters.base_point[2][0];
+    prepared[6][3] = parameters.base_point[2][0];
+    prepared[7][0] = parameters.actuator_axis[0][1];
+    prepared[7][1] = parameters.actuator_axis[1][1];
+    prepared[7][2] = parameters.actuator_axis[2][1];
+    prepared[7][3] = parameters.actuator_axis[2][1];
+    prepared[8][0] = parameters.platform_point[3][2];
+    prepared[8][1] = parameters.platform_point[4][2];
+    prepared[8][2] = parameters.platform_point[5][2];
+    prepared[8][3] = parameters.platform_point[5][2];
+    prepared[9][0] = parameters.actuator_axis[0][0];
+    prepared[9][1] = parameters.actuator_axis[1][0];
+    prepared[9][2] = parameters.actuator_axis[2][0];
+    prepared[9][3] = parameters.actuator_axis[2][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[1][2];
+    prepared[10][2] = parameters.base_point[2][2];
+    prepared[10][3] = parameters.base_point[2][2];
+    prepared[11][0] = parameters.actuator_axis[0][2];
+    prepared[11][1] = parameters.actuator_axis[1][2];
+    prepared[11][2] = parameters.actuator_axis[2][2];
+    prepared[11][3] = parameters.actuator_axis[2][2];
+    prepared[12][0] = parameters.base_point[3][1];
+    prepared[12][1] = parameters.base_point[4][1];
+    prepared[12][2] = parameters.base_point[5][1];
+    prepared[12][3] = parameters.base_point[5][1];
+    prepared[13][0] = parameters.base_point[3][0];
+    prepared[13][1] = parameters.base_point[4][0];
+    prepared[13][2] = parameters.base_point[5][0];
+    prepared[13][3] = parameters.base_point[5][0];
+    prepared[14][0] = parameters.actuator_axis[3][1];
+    prepared[14][1] = parameters.actuator_axis[4][1];
+    prepared[14][2] = parameters.actuator_axis[5][1];
+    prepared[14][3] = parameters.actuator_axis[5][1];
+    prepared[15][0] = parameters.actuator_axis[3][0];
+    prepared[15][1] = parameters.actuator_axis[4][0];
+    prepared[15][2] = parameters.actuator_axis[5][0];
+    prepared[15][3] = parameters.actuator_axis[5][0];
+    prepared[16][0] = parameters.base_point[3][2];
+    prepared[16][1] = parameters.base_point[4][2];
+    prepared[16][2] = parameters.base_point[5][2];
+    prepared[16][3] = parameters.base_point[5][2];
+    prepared[18][0] = parameters.actuator_axis[3][2];
+    prepared[18][1] = parameters.actuator_axis[4][2];
+    prepared[18][2] = parameters.actuator_axis[5][2];
+    prepared[18][3] = parameters.actuator_axis[5][2];
+    prepared[21][0] = parameters.mover_mass[0];
+    prepared[21][1] = parameters.mover_mass[1];
+    prepared[21][2] = parameters.mover_mass[2];
+    prepared[21][3] = parameters.mover_mass[2];
+    prepared[24][0] = parameters.mover_mass[3];
+    prepared[24][1] = parameters.mover_mass[4];
+    prepared[24][2] = parameters.mover_mass[5];
+    prepared[24][3] = parameters.mover_mass[5];
+    prepared[30][0] = parameters.rest_length[0];
+    prepared[30][1] = parameters.rest_length[1];
+    prepared[30][2] = parameters.rest_length[2];
+    prepared[30][3] = parameters.rest_length[2];
+    prepared[32][0] = parameters.mover_offset[0];
+    prepared[32][1] = parameters.mover_offset[1];
+    prepared[32][2] = parameters.mover_offset[2];
+    prepared[32][3] = parameters.mover_offset[2];
+    prepared[33][0] = parameters.axial_stiffness[0];
+    prepared[33][1] = parameters.axial_stiffness[1];
+    prepared[33][2] = parameters.axial_stiffness[2];
+    prepared[33][3] = parameters.axial_stiffness[2];
+    prepared[40][0] = parameters.axial_damping[0];
+    prepared[40][1] = parameters.axial_damping[1];
+    prepared[40][2] = parameters.axial_damping[2];
+    prepared[40][3] = parameters.axial_damping[2];
+    prepared[42][0] = parameters.rest_length[3];
+    prepared[42][1] = parameters.rest_length[4];
+    prepared[42][2] = parameters.rest_length[5];
+    prepared[42][3] = parameters.rest_length[5];
+    prepared[46][0] = parameters.mover_offset[3];
+    prepared[46][1] = parameters.mover_offset[4];
+    prepared[46][2] = parameters.mover_offset[5];
+    prepared[46][3] = parameters.mover_offset[5];
+    prepared[47][0] = parameters.axial_stiffness[3];
+    prepared[47][1] = parameters.axial_stiffness[4];
+    prepared[47][2] = parameters.axial_stiffness[5];
+    prepared[47][3] = parameters.axial_stiffness[5];
+    prepared[48][0] = parameters.axial_damping[3];
+    prepared[48][1] = parameters.axial_damping[4];
+    prepared[48][2] = parameters.axial_damping[5];
+    prepared[48][3] = parameters.axial_damping[5];
+    prepared[52][0] = parameters.gravity[0];
+    prepared[52][1] = parameters.gravity[1];
+    prepared[52][2] = parameters.gravity[2];
+    prepared[52][3] = parameters.gravity[2];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 54x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 54],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    // constant and copied elements
+    let t34 = P::load(&prepared[7]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t35 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    // constant and copied elements
+    let t36 = P::load(&prepared[8]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = t18 * P::splat(P::lane(t14, 2));
+    let t39 = mul_add(P::splat(P::lane(t17, 1)), t36, t33);
+    // constant and copied elements
+    let t40 = P::load(&prepared[9]);
+    let t41 = P::load(&prepared[10]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t21;
+    let t43 = P::splat(P::lane(t22, 1)) + t32 - t20;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t44 = mul_add(P::splat(P::lane(t17, 0)), t36, t35);
+    let t45 = mul_add(t19, P::splat(P::lane(t15, 2)), t38);
+    // constant and copied elements
+    let t46 = P::load(&prepared[11]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t41;
+    // constant and copied elements
+    let t48 = P::load(&prepared[12]);
+    let t49 = P::load(&prepared[13]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t50 = mul_add(P::splat(P::lane(t17, 2)), t36, t45);
+    // legs 4, 5, 6: platform joint from the base point
+    let t51 = P::splat(P::lane(t22, 1)) + t39 - t48;
+    // constant and copied elements
+    let t52 = P::load(&prepared[14]);
+    let t53 = P::load(&prepared[15]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t54 = P::splat(P::lane(t22, 0)) + t44 - t49;
+    // constant and copied elements
+    let t55 = P::load(&prepared[16]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t56 = mul_add(t46, t47, mul_add(t40, t42, t34 * t43));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t57 = P::load(&prepared[17]);
+    // angular velocity of the base
+    let t58 = t1 * P::splat(base_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t59 = P::splat(P::lane(t22, 2)) + t50 - t55;
+    // constant and copied elements
+    let t60 = P::load(&prepared[18]);
+    // legs 1, 2, 3: offset of the platform joint from the actuator axis
+    let t61 = neg_mul_add(t34, t56, t43);
+    let t62 = neg_mul_add(t40, t56, t42);
+    let t63 = neg_mul_add(t46, t56, t47);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t64 = mul_add(t59, t60, mul_add(t53, t54, t51 * t52));
+    // angular velocity of the base
+    let t65 = mul_add(t2, P::splat(base_velocity[3]), t58);
+    // velocity of the platform origin relative to the base
+    let t66 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t67 = t1 * P::splat(platform_velocity[4]);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t68 = neg_mul_add(t52, t64, t51);
+    // angular velocity of the base
+    let t69 = mul_add(t5, P::splat(base_velocity[5]), t65);
+    // velocity of the platform origin relative to the base
+    let t70 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t66);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t71 = mul_add(t62, t62, t61 * t61);
+    // legs 4, 5, 6: offset of the platform joint from the actuator axis
+    let t72 = neg_mul_add(t53, t64, t54);
+    let t73 = neg_mul_add(t60, t64, t59);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t74 = P::load(&prepared[19]);
+    // angular velocity of the platform
+    let t75 = mul_add(t2, P::splat(platform_velocity[3]), t67);
+    // angular acceleration of the base
+    let t76 = t1 * P::splat(base_acceleration[4]);
+    // velocity of the platform origin relative to the base
+    let t77 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t70);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t78 = mul_add(t72, t72, t68 * t68);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t79 = sqrt(neg_mul_add(t63, t63, t57) - t71);
+    // angular acceleration of the base
+    let t80 = mul_add(t2, P::splat(base_acceleration[3]), t76);
+    // angular velocity of the platform
+    let t81 = mul_add(t5, P::splat(platform_velocity[5]), t75);
+    // platform origin seen from the base
+    let t82 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t83 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    let t84 = P::triple([P::lane(t69, 0), P::lane(t69, 2), P::lane(t69, 0)]);
+    let t85 = P::triple([P::lane(t69, 1), P::lane(t69, 1), P::lane(t69, 2)]);
+    // angular acceleration of the base
+    let t86 = mul_add(t5, P::splat(base_acceleration[5]), t80);
+    // angular velocity of the platform relative to the base
+    let t87 = t69 - t81;
+    // platform origin seen from the base
+    let t88 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t89 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t90 = t84 * t85;
+    // velocity of the platform origin relative to the base
+    let t91 = mul_add(t88, t89, neg_mul_add(t82, t83, t77));
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t92 = sqrt(neg_mul_add(t73, t73, t74) - t78);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t69, 2), P::lane(t69, 2), P::lane(t69, 0)]);
+    let t94 = P::triple([P::lane(t69, 1), P::lane(t69, 0), P::lane(t69, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t95 = mul_add(t94, t94, t93 * t93);
+    // angular acceleration of the base
+    let t96 = P::triple([P::lane(t86, 1), P::lane(t86, 2), P::lane(t86, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t97 = P::triple([P::lane(t90, 2), P::lane(t90, 0), P::lane(t90, 1)]);
+    // angular velocity of the platform relative to the base
+    let t98 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    // acceleration of the base origin less gravity
+    let t99 = base_acceleration[0] - parameters.gravity[0];
+    let t100 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular acceleration of the base
+    let t101 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t102 = t96 + t97;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t103 = neg_mul_add(t31, P::splat(P::lane(t87, 2)), P::splat(P::lane(t91, 1)));
+    // acceleration per base coordinate of points that move with the base
+    let t104 = mul_sub(t84, t85, t101);
+    // angular velocity of the platform
+    let t105 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t106 = t83 + t105;
+    // angular velocity of the platform relative to the base
+    let t107 = P::triple([P::lane(t87, 1), P::lane(t87, 2), P::lane(t87, 0)]);
+    // legs 1, 2, 3: reciprocal of that extent
+    let t108 = w(1.0) / t79;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t109 = neg_mul_add(t37, P::splat(P::lane(t87, 1)), P::splat(P::lane(t91, 0)));
+    // acceleration of the base origin less gravity
+    let t110 = base_acceleration[2] - parameters.gravity[2];
+    // rate of that angular velocity
+    let t111 = mul_add(t89, t107, neg_mul_add(t83, t98, t86));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t112 = mul_add(t37, P::splat(P::lane(t87, 0)), t103);
+    // acceleration of the base origin less gravity
+    let t113 = mul_add(t5, P::splat(t110), mul_add(t2, P::splat(t99), t100));
+    // acceleration per base coordinate of points that move with the base
+    let t114 = P::triple([P::lane(t104, 0), -P::lane(t95, 1), P::lane(t102, 2)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t115 = mul_add(t32, P::splat(P::lane(t87, 2)), t109);
+    let t116 = neg_mul_add(t32, P::splat(P::lane(t87, 0)), P::splat(P::lane(t91, 2)));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t117 = P::splat(P::lane(t22, 1)) * t114;
+    // acceleration per base coordinate of points that move with the base
+    let t118 = P::triple([-P::lane(t95, 0), P::lane(t102, 1), P::lane(t104, 2)]);
+    let t119 = P::triple([P::lane(t102, 0), P::lane(t104, 1), -P::lane(t95, 2)]);
+    // velocity of the platform origin relative to the base
+    let t120 = P::triple([P::lane(t91, 1), P::lane(t91, 2), P::lane(t91, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t121 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t122 = t37 * P::splat(P::lane(t111, 0));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t123 = mul_add(P::splat(P::lane(t22, 2)), t119, t113);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t124 = neg_mul_add(t44, P::splat(P::lane(t87, 2)), P::splat(P::lane(t91, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t125 = mul_add(t31, P::splat(P::lane(t87, 1)), t116);
+    // rotation of the platform seen from the base
+    let t126 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t127 = mul_sub(t81, t126, t14 * t105);
+    // velocity of the platform origin relative to the base
+    let t128 = P::triple([P::lane(t91, 2), P::lane(t91, 0), P::lane(t91, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t129 = t32 * P::splat(P::lane(t111, 2));
+    let t130 = mul_sub(t31, P::splat(P::lane(t111, 2)), t122);
+    // legs 4, 5, 6: reciprocal of that extent
+    let t131 = w(1.0) / t92;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t132 = neg_mul_add(t50, P::splat(P::lane(t87, 1)), P::splat(P::lane(t91, 0)));
+    // rotation of the platform seen from the base
+    let t133 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t134 = mul_add(P::splat(P::lane(t22, 0)), t118, t117) + t123;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t135 = mul_add(t50, P::splat(P::lane(t87, 0)), t124);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t136 = mul_add(t46, t125, mul_add(t40, t115, t34 * t112));
+    // acceleration per platform coordinate of points of the platform
+    let t137 = mul_sub(t81, t133, t15 * t105);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t138 = mul_sub(t37, P::splat(P::lane(t111, 1)), t129);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t139 = mul_add(t61, t108, t34);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t140 = mul_add(P::splat(P::lane(t87, 2)), t115, t130);
+    let t141 = t31 * P::splat(P::lane(t111, 1));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t142 = mul_sub(t106, t128, t120 * t121) + t134;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t143 = mul_add(t39, P::splat(P::lane(t87, 2)), t132);
+    let t144 = neg_mul_add(t39, P::splat(P::lane(t87, 0)), P::splat(P::lane(t91, 2)));
+    // rotation of the platform seen from the base
+    let t145 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t146 = mul_add(t62, t108, t40);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t147 = neg_mul_add(t34, t136, t112);
+    // acceleration per platform coordinate of points of the platform
+    let t148 = mul_sub(t81, t145, t17 * t105);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t149 = mul_add(P::splat(P::lane(t87, 1)), t125, t138);
+    let t150 = mul_sub(t32, P::splat(P::lane(t111, 0)), t141);
+    // angular velocity of the platform
+    let t151 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t152 = P::triple([P::lane(t127, 2), P::lane(t127, 0), P::lane(t127, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t153 = neg_mul_add(P::splat(P::lane(t87, 0)), t125, t140);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t154 = t50 * P::splat(P::lane(t111, 0));
+    // legs 1, 2, 3: actuator length d
+    let t155 = t56 - t79;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t156 = mul_add(t44, P::splat(P::lane(t87, 1)), t144);
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t157 = neg_mul_add(t40, t136, t115);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t158 = mul_add(t63, t108, t46);
+    // acceleration per platform coordinate of points of the platform
+    let t159 = P::triple([P::lane(t137, 2), P::lane(t137, 0), P::lane(t137, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t160 = neg_mul_add(P::splat(P::lane(t87, 2)), t112, t149);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t161 = t39 * P::splat(P::lane(t111, 2));
+    let t162 = mul_sub(t44, P::splat(P::lane(t111, 2)), t154);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t163 = mul_add(P::splat(P::lane(t87, 0)), t112, t150);
+    // acceleration per platform coordinate of points of the platform
+    let t164 = mul_sub(t105, t127, t151 * t152);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t165 = P::splat(P::lane(t142, 1)) + t153;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t166 = mul_add(t34, t155, t20);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t167 = mul_add(t60, t156, mul_add(t53, t143, t52 * t135));
+    // legs 1, 2, 3: rate of the offset from the actuator axis
+    let t168 = neg_mul_add(t46, t136, t125);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t169 = mul_sub(t50, P::splat(P::lane(t111, 1)), t161);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t170 = mul_add(t68, t131, t52);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t171 = mul_add(t125, t158, mul_add(t115, t146, t112 * t139));
+    // acceleration per platform coordinate of points of the platform
+    let t172 = mul_sub(t105, t137, t151 * t159);
+    let t173 = P::triple([P::lane(t148, 2), P::lane(t148, 0), P::lane(t148, 1)]);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t174 = t160 + P::splat(P::lane(t142, 0));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t175 = mul_add(P::splat(P::lane(t87, 2)), t143, t162);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t176 = neg_mul_add(P::splat(P::lane(t87, 1)), t115, t163);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t177 = t44 * P::splat(P::lane(t111, 1));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t178 = mul_add(t40, t155, t21);
+    let t179 = mul_add(t46, t155, t41);
+    let t180 = P::splat(P::lane(t95, 1)) * t166;
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t181 = mul_add(t72, t131, t53);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t182 = neg_mul_add(t52, t167, t135);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t183 = mul_add(P::splat(P::lane(t87, 1)), t156, t169);
+    let t184 = mul_sub(t39, P::splat(P::lane(t111, 0)), t177);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t185 = mul_add(t168, t168, mul_add(t157, t157, t147 * t147));
+    // legs 1, 2, 3: rod's end mass at the Hooke joint
+    let t186 = P::load(&prepared[20]);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t187 = t136 - t171;
+    // acceleration per platform coordinate of points of the platform
+    let t188 = mul_sub(t105, t148, t151 * t173);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t189 = neg_mul_add(P::splat(P::lane(t87, 0)), t156, t175);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t190 = P::splat(P::lane(t142, 2)) + t176;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t191 = P::splat(P::lane(t104, 0)) * t166;
+    let t192 = mul_add(P::splat(P::lane(t104, 1)), t179, P::splat(P::lane(t113, 1)));
+    let t193 = t46 * P::splat(P::lane(t69, 0));
+    // legs 4, 5, 6: actuator length d
+    let t194 = t64 - t92;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t195 = t9 * P::splat(P::lane(t164, 1));
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t196 = neg_mul_add(t53, t167, t143);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t197 = mul_add(t73, t131, t60);
+    // constant and copied elements
+    let t198 = P::load(&prepared[21]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t199 = neg_mul_add(P::splat(P::lane(t87, 2)), t135, t183);
+    let t200 = mul_add(P::splat(P::lane(t87, 0)), t135, t184);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t201 = mul_add(t158, t190, mul_add(t146, t174, t139 * t165));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t202 = mul_add(P::splat(P::lane(t102, 0)), t179, P::splat(P::lane(t113, 0)));
+    let t203 = t34 * P::splat(P::lane(t69, 2));
+    let t204 = mul_sub(t40, P::splat(P::lane(t69, 2)), t193);
+    // legs 4, 5, 6: rod's end mass at the Hooke joint
+    let t205 = P::load(&prepared[22]);
+    // legs 1, 2, 3: mass that slides along the actuator axis: mover and rod's end
+    let t206 = P::load(&prepared[23]);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t207 = P::splat(P::lane(t142, 1)) + t189;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t208 = t171 * w(2.0);
+    let t209 = mul_sub(P::splat(P::lane(t102, 1)), t178, t180) + t192;
+    let t210 = P::splat(P::lane(t102, 2)) * t166;
+    let t211 = t9 * P::splat(P::lane(t164, 0));
+    let t212 = mul_add(t12, P::splat(P::lane(t172, 1)), t195);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t213 = mul_add(t52, t194, t48);
+    // legs 4, 5, 6: rate of the offset from the actuator axis
+    let t214 = neg_mul_add(t60, t167, t156);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t215 = mul_sub(t46, P::splat(P::lane(t69, 1)), t203);
+    // constant and copied elements
+    let t216 = P::load(&prepared[24]);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t217 = mul_add(t156, t197, mul_add(t143, t181, t135 * t170));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t218 = P::splat(P::lane(t142, 0)) + t199;
+    let t219 = neg_mul_add(P::splat(P::lane(t87, 1)), t143, t200);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t220 = neg_mul_add(t108, mul_add(t187, t187, t185), t201);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t221 = t202 - mul_sub(P::splat(P::lane(t95, 0)), t178, t191);
+    let t222 = neg_mul_add(P::splat(P::lane(t95, 2)), t179, P::splat(P::lane(t113, 2)));
+    let t223 = t40 * P::splat(P::lane(t69, 1));
+    let t224 = mul_add(t12, P::splat(P::lane(t172, 0)), t211);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t225 = mul_add(t53, t194, t49);
+    let t226 = mul_add(t60, t194, t55);
+    // legs 4, 5, 6: mass that slides along the actuator axis: mover and rod's end
+    let t227 = P::load(&prepared[25]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t228 = t9 * P::splat(P::lane(t164, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t229 = P::splat(P::lane(t95, 1)) * t213;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t230 = mul_add(t214, t214, mul_add(t196, t196, t182 * t182));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t231 = mul_sub(t34, P::splat(P::lane(t69, 0)), t223);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t232 = t167 - t217;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t233 = P::splat(P::lane(t142, 2)) + t219;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t234 = neg_mul_add(t34, t220, mul_add(t204, t208, t209));
+    let t235 = mul_add(P::splat(P::lane(t104, 2)), t178, t210) + t222;
+    let t236 = mul_add(t12, P::splat(P::lane(t172, 2)), t228);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t237 = P::splat(P::lane(t104, 0)) * t213;
+    let t238 = mul_add(P::splat(P::lane(t104, 1)), t226, P::splat(P::lane(t113, 1)));
+    let t239 = t60 * P::splat(P::lane(t69, 0));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t240 = t34 * mul_add(t13, P::splat(P::lane(t188, 1)), t212);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t241 = t18 * P::splat(P::lane(t164, 1));
+    // legs 1, 2, 3: rod's inertial coupling between its ends
+    let t242 = P::load(&prepared[26]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t243 = mul_add(t197, t233, mul_add(t181, t218, t170 * t207));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t244 = neg_mul_add(t40, t220, mul_add(t208, t215, t221));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t245 = mul_add(P::splat(P::lane(t102, 0)), t226, P::splat(P::lane(t113, 0)));
+    let t246 = t52 * P::splat(P::lane(t69, 2));
+    let t247 = mul_sub(t53, P::splat(P::lane(t69, 2)), t239);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t248 = mul_add(t40, mul_add(t13, P::splat(P::lane(t188, 0)), t224), t240);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t249 = w(2.0) * t217;
+    let t250 = mul_sub(P::splat(P::lane(t102, 1)), t225, t229) + t238;
+    let t251 = P::splat(P::lane(t102, 2)) * t213;
+    let t252 = t18 * P::splat(P::lane(t164, 0));
+    let t253 = mul_add(t19, P::splat(P::lane(t172, 1)), t241);
+    let t254 = mul_sub(t60, P::splat(P::lane(t69, 1)), t246);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t255 = neg_mul_add(t131, mul_add(t232, t232, t230), t243);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t256 = neg_mul_add(t46, t220, mul_add(t208, t231, t235));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t257 = t245 - mul_sub(P::splat(P::lane(t95, 0)), t225, t237);
+    let t258 = neg_mul_add(P::splat(P::lane(t95, 2)), t226, P::splat(P::lane(t113, 2)));
+    let t259 = t53 * P::splat(P::lane(t69, 1));
+    let t260 = mul_add(t19, P::splat(P::lane(t172, 0)), t252);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t261 = mul_add(t46, mul_add(t13, P::splat(P::lane(t188, 2)), t236), t248);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t262 = t18 * P::splat(P::lane(t164, 2));
+    // legs 4, 5, 6: rod's inertial coupling between its ends
+    let t263 = P::load(&prepared[27]);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t264 = P::load(&prepared[28]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t265 = mul_sub(t52, P::splat(P::lane(t69, 0)), t259);
+    // legs 1, 2, 3: weights of the squares that make the leg's mass matrix
+    let t266 = P::load(&prepared[29]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t267 = mul_add(t46, t256, mul_add(t40, t244, t34 * t234));
+    let t268 = mul_add(t231, t231, mul_add(t215, t215, t204 * t204));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t269 = neg_mul_add(t52, t255, mul_add(t247, t249, t250));
+    let t270 = mul_add(P::splat(P::lane(t104, 2)), t225, t251) + t258;
+    let t271 = mul_add(t19, P::splat(P::lane(t172, 2)), t262);
+    // constant and copied elements
+    let t272 = P::load(&prepared[30]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t273 = t52 * mul_add(t36, P::splat(P::lane(t188, 1)), t253);
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t274 = t155 - t272;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t275 = neg_mul_add(t40, t264, t146);
+    let t276 = neg_mul_add(t34, t264, t139);
+    let t277 = neg_mul_add(t46, t264, t158);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t278 = P::load(&prepared[31]);
+    // constant and copied elements
+    let t279 = P::load(&prepared[32]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t280 = neg_mul_add(t53, t255, mul_add(t249, t254, t257));
+    // constant and copied elements
+    let t281 = P::load(&prepared[33]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t282 = mul_sub(t32, t158, t37 * t139);
+    let t283 = mul_sub(t37, t146, t31 * t158);
+    let t284 = mul_sub(t31, t139, t32 * t146);
+    // constant and copied elements
+    let t285 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t286 = mul_sub(t32, t46, t34 * t37);
+    let t287 = mul_sub(t37, t40, t31 * t46);
+    let t288 = mul_sub(t31, t34, t32 * t40);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t289 = mul_sub(t186, t267, t242 * t261);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t290 = mul_add(t53, mul_add(t36, P::splat(P::lane(t188, 0)), t260), t273);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t291 = neg_mul_add(t53, t278, t181);
+    let t292 = neg_mul_add(t52, t278, t170);
+    let t293 = neg_mul_add(t60, t278, t197);
+    // mass matrix in base coordinates
+    let t294 = P::load(&prepared[34]);
+    let t295 = t206 * t276;
+    let t296 = t206 * t277;
+    let t297 = P::load(&prepared[35]);
+    let t298 = P::load(&prepared[36]);
+    let t299 = P::load(&prepared[37]);
+    let t300 = P::load(&prepared[38]);
+    let t301 = P::load(&prepared[39]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t302 = neg_mul_add(t60, t255, mul_add(t249, t265, t270));
+    // constant and copied elements
+    let t303 = P::load(&prepared[40]);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t304 = mul_sub(t39, t197, t50 * t170);
+    let t305 = mul_sub(t50, t181, t44 * t197);
+    let t306 = mul_sub(t44, t170, t39 * t181);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t307 = neg_mul_add(t264, t286, t282);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t308 = mul_sub(t39, t60, t50 * t52);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t309 = neg_mul_add(t264, t287, t283);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t310 = mul_sub(t50, t53, t44 * t60);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t311 = neg_mul_add(t264, t288, t284);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t312 = mul_sub(t44, t52, t39 * t53);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t313 = mul_add(t198, mul_add(t268, t279, t267), t289);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t314 = mul_add(t60, mul_add(t36, P::splat(P::lane(t188, 2)), t271), t290);
+    // mass matrix in base coordinates
+    let t315 = t266 * t286;
+    let t316 = t266 * t287;
+    let t317 = t266 * t288;
+    let t318 = t227 * t292;
+    let t319 = t227 * t293;
+    // legs 4, 5, 6: weights of the squares that make the leg's mass matrix
+    let t320 = P::load(&prepared[41]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t321 = mul_add(t60, t302, mul_add(t53, t280, t52 * t269));
+    let t322 = mul_add(t265, t265, mul_add(t254, t254, t247 * t247));
+    // constant and copied elements
+    let t323 = P::load(&prepared[42]);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t324 = neg_mul_add(t278, t308, t304);
+    let t325 = neg_mul_add(t278, t310, t305);
+    let t326 = neg_mul_add(t278, t312, t306);
+    // mass matrix in base coordinates
+    let t327 = t206 * t307;
+    let t328 = t206 * t309;
+    let t329 = t206 * t311;
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t330 = t194 - t323;
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t331 = neg_mul_add(t171, t303, neg_mul_add(t274, t281, t285)) - t313;
+    // mass matrix in base coordinates
+    let t332 = mul_add(t291, t227 * t291, mul_sub(t275, t206 * t275, t294));
+    let t333 = mul_add(t292, t318, mul_sub(t276, t295, t297));
+    let t334 = mul_add(t293, t319, mul_sub(t277, t296, t298));
+    let t335 = P::load(&prepared[43]);
+    let t336 = P::load(&prepared[44]);
+    let t337 = mul_add(t291, t318, mul_sub(t275, t295, t299));
+    let t338 = P::load(&prepared[45]);
+    let t339 = mul_add(t291, t319, mul_sub(t275, t296, t300));
+    let t340 = mul_add(t292, t319, mul_sub(t276, t296, t301));
+    // constant and copied elements
+    let t341 = P::load(&prepared[46]);
+    let t342 = P::load(&prepared[47]);
+    let t343 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t344 = mul_sub(t205, t321, t263 * t314);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t345 = t242 * t244;
+    let t346 = t234 * t242;
+    let t347 = t242 * t256;
+    // mass matrix in base coordinates
+    let t348 = t227 * t324;
+    let t349 = t227 * t325;
+    let t350 = t227 * t326;
+    let t351 = mul_sub(t53, t335, t332);
+    let t352 = mul_sub(t52, t336, t333);
+    let t353 = mul_sub(t60, t338, t334);
+    let t354 = mul_sub(t53, t336, t337);
+    let t355 = mul_sub(t53, t338, t339);
+    let t356 = mul_sub(t52, t338, t340);
+    // constant and copied elements
+    let t357 = P::load(&prepared[48]);
+    // mass matrix in base coordinates
+    let t358 = mul_add(t292, t348, mul_sub(t276, t327, t34 * t315));
+    let t359 = mul_add(t292, t349, mul_sub(t276, t328, t34 * t316));
+    let t360 = mul_add(t292, t350, mul_sub(t276, t329, t34 * t317));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t361 = mul_add(t216, mul_add(t322, t341, t321), t344);
+    // mass matrix in base coordinates
+    let t362 = t308 * t320;
+    let t363 = t310 * t320;
+    let t364 = t312 * t320;
+    let t365 = mul_add(t291, t348, mul_sub(t275, t327, t40 * t315));
+    let t366 = mul_add(t291, t349, mul_sub(t275, t328, t40 * t316));
+    let t367 = mul_add(t291, t350, mul_sub(t275, t329, t40 * t317));
+    // wrench left at the trial acceleration
+    let t368 = neg_mul_add(t32, t347, mul_sub(t37, t346, t282 * t331));
+    let t369 = neg_mul_add(t37, t345, mul_sub(t31, t347, t283 * t331));
+    let t370 = neg_mul_add(t31, t346, mul_sub(t32, t345, t284 * t331));
+    // mass matrix in base coordinates
+    let t371 = mul_sub(t52, t362, t358);
+    let t372 = mul_sub(t52, t363, t359);
+    let t373 = mul_sub(t52, t364, t360);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t374 = neg_mul_add(t217, t357, neg_mul_add(t330, t342, t343)) - t361;
+    // inertia less external wrench that the actuators must balance
+    let t375 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t376 = mul_sub(t53, t362, t365);
+    let t377 = mul_sub(t53, t363, t366);
+    let t378 = mul_sub(t53, t364, t367);
+    let t379 = P::triple([P::lane(t351, 0), P::lane(t352, 0), P::lane(t353, 0)]);
+    let t380 = P::triple([P::lane(t351, 1), P::lane(t352, 1), P::lane(t353, 1)]);
+    let t381 = mul_add(t293, t348, mul_sub(t277, t327, t46 * t315));
+    let t382 = mul_add(t293, t349, mul_sub(t277, t328, t46 * t316));
+    let t383 = mul_add(t293, t350, mul_sub(t277, t329, t46 * t317));
+    let t384 = P::triple([P::lane(t356, 0), P::lane(t355, 0), P::lane(t354, 0)]);
+    let t385 = P::triple([P::lane(t356, 1), P::lane(t355, 1), P::lane(t354, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t386 = t263 * t280;
+    let t387 = t263 * t269;
+    let t388 = t263 * t302;
+    // first moments by platform coordinate of the payload's inertia force
+    let t389 = mul_add(t172, P::splat(prepared[51][0]), t164 * P::splat(prepared[49][0]));
+    // inertia less external wrench that the actuators must balance
+    let t390 = mul_add(t2, P::splat(external_wrench[0]), t375);
+    // mass matrix in base coordinates
+    let t391 = P::triple([P::lane(t351, 2), P::lane(t352, 2), P::lane(t353, 2)]);
+    let t392 = P::triple([P::lane(t356, 2), P::lane(t355, 2), P::lane(t354, 2)]);
+    let t393 = mul_sub(t60, t362, t381);
+    let t394 = mul_sub(t60, t363, t382);
+    let t395 = mul_sub(t60, t364, t383);
+    let t396 = t384 + t385 + t392;
+    let t397 = P::lane(t14, 2) * prepared[50][1];
+    // wrench left at the trial acceleration
+    let t398 = mul_add(t181, t374, mul_add(t146, t331, t345));
+    let t399 = mul_add(t170, t374, mul_add(t139, t331, t346));
+    let t400 = mul_add(t197, t374, mul_add(t158, t331, t347));
+    let t401 = mul_sub(t50, t387, mul_sub(t304, t374, t368));
+    let t402 = mul_sub(t44, t388, mul_sub(t305, t374, t369));
+    let t403 = mul_sub(t39, t386, mul_sub(t306, t374, t370));
+    // mass matrix in base coordinates
+    let t404 = P::triple([P::lane(t371, 0), P::lane(t372, 0), P::lane(t373, 0)]);
+    let t405 = P::triple([P::lane(t371, 1), P::lane(t372, 1), P::lane(t373, 1)]);
+    let t406 = P::lane(t14, 0) * prepared[50][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t407 = mul_add(t188, P::splat(prepared[49][2]), t389);
+    // inertia less external wrench that the actuators must balance
+    let t408 = mul_add(t5, P::splat(external_wrench[2]), t390);
+    // mass matrix in base coordinates
+    let t409 = P::splat(prepared[53][0]) - (t379 + t380 + t391);
+    let t410 = P::triple([P::lane(t376, 0), P::lane(t377, 0), P::lane(t378, 0)]);
+    let t411 = P::triple([P::lane(t376, 1), P::lane(t377, 1), P::lane(t378, 1)]);
+    let t412 = mul_add(t324, t348, mul_sub(t307, t327, t286 * t315));
+    let t413 = mul_add(t325, t349, mul_sub(t309, t328, t287 * t316));
+    let t414 = mul_add(t326, t350, mul_sub(t311, t329, t288 * t317));
+    let t415 = P::mul_add(P::lane(t15, 2), prepared[50][0], t397);
+    let t416 = P::lane(t14, 1) * prepared[50][1];
+    let t417 = P::triple([P::lane(t371, 2), P::lane(t372, 2), P::lane(t373, 2)]);
+    let t418 = mul_add(t324, t349, mul_sub(t307, t328, t286 * t316));
+    let t419 = mul_add(t324, t350, mul_sub(t307, t329, t286 * t317));
+    let t420 = mul_add(t325, t350, mul_sub(t309, t329, t287 * t317));
+    let t421 = P::mul_add(P::lane(t15, 0), prepared[50][0], t406);
+    // wrench left at the trial acceleration
+    let t422 = mul_add(t263, t280, t398);
+    let t423 = mul_add(t263, t269, t399);
+    let t424 = mul_add(t263, t302, t400);
+    let t425 = neg_mul_add(t39, t388, t401);
+    let t426 = neg_mul_add(t50, t386, t402);
+    let t427 = neg_mul_add(t44, t387, t403);
+    // mass matrix in base coordinates
+    let t428 = t404 + t405 + t417;
+    // first moments by platform coordinate of the payload's inertia force
+    let t429 = mul_add(t172, P::splat(prepared[49][0]), t164 * P::splat(prepared[51][1]));
+    // mass matrix in base coordinates
+    let t430 = P::triple([P::lane(t376, 2), P::lane(t377, 2), P::lane(t378, 2)]);
+    let t431 = P::mul_add(P::lane(t15, 1), prepared[50][0], t416);
+    let t432 = t410 + t411 + t430;
+    let t433 = P::triple([P::lane(t393, 0), P::lane(t394, 0), P::lane(t395, 0)]);
+    let t434 = P::triple([P::lane(t393, 1), P::lane(t394, 1), P::lane(t395, 1)]);
+    let t435 = mul_sub(t308, t362, t412);
+    let t436 = mul_sub(t310, t363, t413);
+    let t437 = mul_sub(t312, t364, t414);
+    let t438 = P::triple([P::lane(t396, 2), P::lane(t396, 2), P::lane(t396, 0)]);
+    let t439 = P::triple([P::lane(t396, 1), P::lane(t396, 0), P::lane(t396, 1)]);
+    let t440 = P::mul_add(P::lane(t17, 2), prepared[50][2], t415);
+    let t441 = mul_sub(t308, t363, t418);
+    let t442 = mul_sub(t308, t364, t419);
+    let t443 = mul_sub(t310, t364, t420);
+    // acceleration that removes the residual wrench
+    let t444 = mul_add(t438, t439, t396 * t409);
+    // mass matrix in base coordinates
+    let t445 = P::mul_add(P::lane(t17, 0), prepared[50][2], t421);
+    // first moments by platform coordinate of the payload's inertia force
+    let t446 = mul_add(t188, P::splat(prepared[49][1]), t429);
+    // inertia less external wrench that the actuators must balance
+    let t447 = P::triple([P::lane(t408, 1), P::lane(t408, 2), P::lane(t408, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t448 = P::triple([P::lane(t407, 1), P::lane(t407, 2), P::lane(t407, 0)]);
+    // mass matrix in base coordinates
+    let t449 = P::triple([P::lane(t393, 2), P::lane(t394, 2), P::lane(t395, 2)]);
+    let t450 = mul_add(t15, P::splat(prepared[51][0]), t14 * P::splat(prepared[49][0]));
+    let t451 = P::mul_add(P::lane(t17, 1), prepared[50][2], t431);
+    // inertia less external wrench that the actuators must balance
+    let t452 = neg_mul_add(P::splat(parameters.payload_com[0]), t447, t448);
+    // mass matrix in base coordinates
+    let t453 = t433 + t434 + t449;
+    let t454 = t440 + P::lane(t428, 0);
+    let t455 = P::triple([P::lane(t409, 1), P::lane(t409, 0), P::lane(t409, 1)]);
+    let t456 = P::triple([P::lane(t409, 2), P::lane(t409, 2), P::lane(t409, 0)]);
+    // wrench left at the trial acceleration
+    let t457 = P::triple([P::lane(t422, 0), P::lane(t423, 0), P::lane(t424, 0)]);
+    let t458 = P::triple([P::lane(t422, 1), P::lane(t423, 1), P::lane(t424, 1)]);
+    let t459 = P::triple([P::lane(t425, 0), P::lane(t426, 0), P::lane(t427, 0)]);
+    let t460 = P::triple([P::lane(t425, 1), P::lane(t426, 1), P::lane(t427, 1)]);
+    // acceleration that removes the residual wrench
+    let t461 = mul_sub(t455, t456, t396 * t396);
+    // first moments by platform coordinate of the payload's inertia force
+    let t462 = mul_add(t172, P::splat(prepared[49][2]), t164 * P::splat(prepared[49][1]));
+    // mass matrix in base coordinates
+    let t463 = mul_add(t17, P::splat(prepared[49][2]), t450);
+    let t464 = mul_add(t15, P::splat(prepared[49][0]), t14 * P::splat(prepared[51][1]));
+    let t465 = P::triple([P::lane(t435, 0), P::lane(t436, 0), P::lane(t437, 0)]);
+    let t466 = P::triple([P::lane(t435, 1), P::lane(t436, 1), P::lane(t437, 1)]);
+    let t467 = t440 - P::lane(t432, 1);
+    let t468 = P::triple([-t454, -P::lane(t428, 1), t445 - P::lane(t428, 2)]);
+    // wrench left at the trial acceleration
+    let t469 = P::triple([P::lane(t422, 2), P::lane(t423, 2), P::lane(t424, 2)]);
+    let t470 = P::triple([P::lane(t425, 2), P::lane(t426, 2), P::lane(t427, 2)]);
+    // mass matrix in base coordinates
+    let t471 = P::triple([P::lane(t443, 0), P::lane(t442, 0), P::lane(t441, 0)]);
+    let t472 = P::triple([P::lane(t443, 1), P::lane(t442, 1), P::lane(t441, 1)]);
+    // acceleration that removes the residual wrench
+    let t473 = P::splat(P::lane(t444, 2)) * t468;
+    // mass matrix in base coordinates
+    let t474 = -P::lane(t432, 0);
+    // first moments by platform coordinate of the payload's inertia force
+    let t475 = mul_add(t188, P::splat(prepared[51][2]), t462);
+    let t476 = P::triple([P::lane(t446, 1), P::lane(t446, 2), P::lane(t446, 0)]);
+    // mass matrix in base coordinates
+    let t477 = P::triple([P::lane(t435, 2), P::lane(t436, 2), P::lane(t437, 2)]);
+    let t478 = mul_add(t17, P::splat(prepared[49][1]), t464);
+    let t479 = mul_add(t15, P::splat(prepared[49][2]), t14 * P::splat(prepared[49][1]));
+    let t480 = P::triple([t474, t467, -(P::lane(t432, 2) + t451)]);
+    // inertia less external wrench that the actuators must balance
+    let t481 = neg_mul_add(P::splat(parameters.payload_com[1]), t447, t476);
+    let t482 = P::triple([P::lane(t452, 1), P::lane(t452, 2), P::lane(t452, 0)]);
+    // mass matrix in base coordinates
+    let t483 = P::triple([P::lane(t443, 2), P::lane(t442, 2), P::lane(t441, 2)]);
+    // acceleration that removes the residual wrench
+    let t484 = mul_add(P::splat(P::lane(t461, 0)), t480, t473);
+    // mass matrix in base coordinates
+    let t485 = t451 - P::lane(t453, 0);
+    // wrench left at the trial acceleration
+    let t486 = neg_mul_add(t172, P::splat(prepared[50][0]), t457 + t458 + t469);
+    // mass matrix in base coordinates
+    let t487 = -(t445 + P::lane(t453, 1));
+    let t488 = t465 + t466 + t477 - P::splat(prepared[53][1]);
+    let t489 = mul_add(t17, P::splat(prepared[51][2]), t479);
+    // rotation of the platform seen from the base
+    let t490 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t491 = P::triple([P::lane(t463, 1), P::lane(t463, 0), P::lane(t463, 0)]);
+    let t492 = P::triple([t485, t487, -P::lane(t453, 2)]);
+    // rotation of the platform seen from the base
+    let t493 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration that removes the residual wrench
+    let t494 = mul_add(P::splat(P::lane(t444, 1)), t492, t484);
+    let t495 = t468 * P::splat(P::lane(t461, 1));
+    // wrench left at the trial acceleration
+    let t496 = neg_mul_add(t164, P::splat(prepared[50][1]), t486);
+    let t497 = mul_sub(t452, t493, mul_add(t133, t482, t459 + t460 + t470));
+    // acceleration that removes the residual wrench
+    let t498 = P::lane(t396, 2) * P::lane(t444, 2);
+    // first moments by platform coordinate of the payload's inertia force
+    let t499 = P::triple([P::lane(t475, 1), P::lane(t475, 2), P::lane(t475, 0)]);
+    // rotation of the platform seen from the base
+    let t500 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t501 = P::triple([P::lane(t478, 1), P::lane(t478, 0), P::lane(t478, 0)]);
+    // acceleration that removes the residual wrench
+    let t502 = mul_add(P::splat(P::lane(t444, 2)), t480, t495);
+    // inertia less external wrench that the actuators must balance
+    let t503 = neg_mul_add(P::splat(parameters.payload_com[2]), t447, t499);
+    let t504 = P::triple([P::lane(t481, 1), P::lane(t481, 2), P::lane(t481, 0)]);
+    // mass matrix in base coordinates
+    let t505 = mul_add(t500, t501, mul_add(t490, t491, t471 + t472 + t483));
+    // acceleration that removes the residual wrench
+    let t506 = t468 * P::splat(P::lane(t444, 0));
+    let t507 = P::mul_sub(P::lane(t409, 0), P::lane(t461, 0), t498);
+    // mass matrix in base coordinates
+    let t508 = mul_add(t14, t478, mul_add(t15, t463, t488));
+    // rotation of the platform seen from the base
+    let t509 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t510 = mul_add(t492, P::splat(P::lane(t444, 0)), t502);
+    // mass matrix in base coordinates
+    let t511 = P::triple([P::lane(t489, 1), P::lane(t489, 0), P::lane(t489, 0)]);
+    // acceleration that removes the residual wrench
+    let t512 = mul_add(t480, P::splat(P::lane(t444, 1)), t506);
+    // rotation of the platform seen from the base
+    let t513 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t514 = mul_add(t509, t511, t505);
+    // acceleration that removes the residual wrench
+    let t515 = P::neg_mul_add(P::lane(t396, 1), P::lane(t444, 1), t507);
+    // mass matrix in base coordinates
+    let t516 = P::triple([t467, t474, t474]);
+    // acceleration that removes the residual wrench
+    let t517 = P::triple([P::lane(t494, 2), P::lane(t494, 2), P::lane(t494, 1)]);
+    // wrench left at the trial acceleration
+    let t518 = t408 + neg_mul_add(t188, P::splat(prepared[50][2]), t496);
+    let t519 = mul_add(t481, t513, neg_mul_add(t126, t504, t497));
+    // mass matrix in base coordinates
+    let t520 = mul_add(t17, t489, t508);
+    // acceleration that removes the residual wrench
+    let t521 = mul_add(t492, P::splat(P::lane(t461, 2)), t512);
+    // inertia less external wrench that the actuators must balance
+    let t522 = P::triple([P::lane(t503, 1), P::lane(t503, 2), P::lane(t503, 0)]);
+    // acceleration that removes the residual wrench
+    let t523 = mul_add(t514, P::splat(t515), t516 * t517);
+    // mass matrix in base coordinates
+    let t524 = P::triple([P::lane(t428, 1), t454, t454]);
+    // acceleration that removes the residual wrench
+    let t525 = P::triple([P::lane(t510, 2), P::lane(t510, 2), P::lane(t510, 1)]);
+    // rotation of the platform seen from the base
+    let t526 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t527 = P::triple([P::lane(t518, 1), P::lane(t518, 2), P::lane(t518, 0)]);
+    // acceleration that removes the residual wrench
+    let t528 = P::triple([P::lane(t444, 2), P::lane(t444, 0), P::lane(t444, 1)]);
+    // wrench left at the trial acceleration
+    let t529 = mul_add(t503, t526, neg_mul_add(t145, t522, t519));
+    // acceleration that removes the residual wrench
+    let t530 = mul_add(t468, t510, mul_add(P::splat(t515), t520, t480 * t494));
+    // mass matrix in base coordinates
+    let t531 = P::triple([t487, t485, t485]);
+    // acceleration that removes the residual wrench
+    let t532 = P::triple([P::lane(t521, 2), P::lane(t521, 2), P::lane(t521, 1)]);
+    // wrench left at the trial acceleration
+    let t533 = P::triple([P::lane(t518, 2), P::lane(t518, 0), P::lane(t518, 1)]);
+    // acceleration that removes the residual wrench
+    let t534 = P::triple([P::lane(t444, 1), P::lane(t444, 2), P::lane(t444, 0)]);
+    let t535 = mul_add(t531, t532, neg_mul_add(t524, t525, t523));
+    // wrench left at the trial acceleration
+    let t536 = mul_add(t2, P::splat(external_wrench[3]), t529);
+    // acceleration that removes the residual wrench
+    let t537 = mul_add(t492, t521, t530);
+    let t538 = mul_add(t533, t534, mul_add(t461, t518, t527 * t528));
+    // wrench left at the trial acceleration
+    let t539 = mul_add(t1, P::splat(external_wrench[4]), t536);
+    // acceleration that removes the residual wrench
+    let t540 = P::triple([P::lane(t535, 1), P::lane(t535, 0), P::lane(t535, 1)]);
+    let t541 = P::triple([P::lane(t535, 2), P::lane(t535, 2), P::lane(t535, 0)]);
+    // wrench left at the trial acceleration
+    let t542 = mul_add(t5, P::splat(external_wrench[5]), t539);
+    // acceleration that removes the residual wrench
+    let t543 = mul_sub(t540, t541, t535 * t537);
+    let t544 = P::triple([P::lane(t537, 1), P::lane(t537, 0), P::lane(t537, 1)]);
+    let t545 = mul_sub(P::splat(t515), t542, t480 * P::splat(P::lane(t538, 0)));
+    let t546 = P::triple([P::lane(t537, 2), P::lane(t537, 2), P::lane(t537, 0)]);
+    let t547 = mul_sub(t544, t546, t535 * t535);
+    let t548 = P::triple([P::lane(t494, 0), P::lane(t510, 0), P::lane(t521, 0)]);
+    let t549 = P::triple([P::lane(t494, 1), P::lane(t510, 1), P::lane(t521, 1)]);
+    let t550 = neg_mul_add(t468, P::splat(P::lane(t538, 1)), t545);
+    let t551 = P::triple([P::lane(t494, 2), P::lane(t510, 2), P::lane(t521, 2)]);
+    let t552 = P::lane(t535, 2) * P::lane(t543, 2);
+    let t553 = P::triple([P::lane(t543, 2), P::lane(t543, 0), P::lane(t543, 1)]);
+    let t554 = P::triple([P::lane(t543, 1), P::lane(t543, 2), P::lane(t543, 0)]);
+    // constant and copied elements
+    let t555 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t556 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t557 = P::mul_add(P::lane(t537, 0), P::lane(t547, 0), t552);
+    let t558 = neg_mul_add(t492, P::splat(P::lane(t538, 2)), t550);
+    // constant and copied elements
+    let t559 = P::load(&prepared[52]);
+    let t560 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t561 = c(1.0) / P::mul_add(P::lane(t535, 1), P::lane(t543, 1), t557);
+    let t562 = P::triple([P::lane(t558, 1), P::lane(t558, 2), P::lane(t558, 0)]);
+    let t563 = P::triple([P::lane(t558, 2), P::lane(t558, 0), P::lane(t558, 1)]);
+    let t564 = mul_add(t554, t563, mul_add(t547, t558, t553 * t562));
+    let t565 = P::splat(t561) * t564;
+    let t566 = mul_add(t548, P::splat(P::lane(t565, 0)), t538);
+    // platform acceleration v_p'
+    let t567 = t555 * P::splat(P::lane(t565, 1));
+    // acceleration that removes the residual wrench
+    let t568 = mul_add(t549, P::splat(P::lane(t565, 1)), t566);
+    // platform acceleration v_p'
+    let t569 = mul_add(t556, P::splat(P::lane(t565, 0)), t567);
+    // acceleration that removes the residual wrench
+    let t570 = mul_add(t551, P::splat(P::lane(t565, 2)), t568);
+    // platform acceleration v_p'
+    let t571 = mul_add(t560, P::splat(P::lane(t565, 2)), t569);
+    // acceleration that removes the residual wrench
+    let t572 = P::splat(c(1.0) / t515) * t570;
+    // platform acceleration v_p'
+    let t573 = t555 * P::splat(P::lane(t572, 1));
+    let t574 = mul_add(t556, P::splat(P::lane(t572, 0)), t573);
+    let t575 = mul_add(t560, P::splat(P::lane(t572, 2)), t559) + t574;
+    forward_dynamics[0] = P::lane(t575, 0);
+    forward_dynamics[1] = P::lane(t575, 1);
+    forward_dynamics[2] = P::lane(t575, 2);
+    forward_dynamics[3] = -P::lane(t571, 0);
+    forward_dynamics[4] = -P::lane(t571, 1);
+    forward_dynamics[5] = -P::lane(t571, 2);
 }

@@ -52,7 +52,7 @@
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use crate::solve::solve_general;
+use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
 #[allow(unused_imports)]
 use crate::triple::Triple;
 

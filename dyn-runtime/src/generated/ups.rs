@@ -23,10 +23,10 @@
 // passive_forces                  1071         696
 // bias                            1896        1210
 // equation_of_motion              6023        3738
-// inverse_dynamics                1947        1249
+// inverse_dynamics                1947        1401
 // actuator_geometry                531         339
-// control                         2801        1729
-// passive_inverse_dynamics        2577        1636
+// control                         2801        1881
+// passive_inverse_dynamics        2577        1788
 // base_reaction                   1977        1285
 // forward_dynamics                2508        1577
 // energy                          1448         894
@@ -34,7 +34,7 @@
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use crate::solve::solve_general;
+use crate::solve::{solve_after_attempt, solve_after_attempt_in_lanes, solve_general};
 #[allow(unused_imports)]
 use crate::triple::Triple;
 
@@ -2557,6 +2557,1431 @@ impl<S> crate::kernels::generic::ForwardDynamics for Ups<S> {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl<S> crate::kernels::generic::Energy for Ups<S> {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+/// [`Ups`] for many calls with the same parameters: what follows from them alone is
+/// computed already, for functions in lanes.
+///
+/// Its parameters stay as they are; others make another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreparedUps {
+    model: Ups,
+    matrices: [[f64; 4]; 25],
+    inverse_dynamics: [[f64; 4]; 28],
+    control: [[f64; 4]; 34],
+    forward_dynamics: [[f64; 4]; 41],
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl Ups {
+    /// The model with everything computed that follows from its parameters alone.
+    pub fn prepared(self) -> PreparedUps {
+        let mut prepared = PreparedUps {
+            model: self,
+            matrices: [[0.0; 4]; 25],
+            inverse_dynamics: [[0.0; 4]; 28],
+            control: [[0.0; 4]; 34],
+            forward_dynamics: [[0.0; 4]; 41],
+        };
+        self::prepare_matrices(&self.parameters, &mut prepared.matrices);
+        self::prepare_inverse_dynamics(&self.parameters, &mut prepared.inverse_dynamics);
+        self::prepare_control(&self.parameters, &mut prepared.control);
+        self::prepare_forward_dynamics(&self.parameters, &mut prepared.forward_dynamics);
+        prepared
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl PreparedUps {
+    /// The model as it was when this was made, with its parameters.
+    pub fn model(&self) -> &Ups {
+        &self.model
+    }
+}
+
+impl crate::lanes::Generic for PreparedUps {
+    type Parameters<T: Scalar> = Parameters<T>;
+}
+
+impl crate::lanes::InLanes<f64> for PreparedUps {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = f64>>(
+        of_lane: impl Fn(usize) -> &'a Self,
+    ) -> Parameters<T> {
+        <Ups as crate::lanes::InLanes<f64>>::in_lanes(|lane| &of_lane(lane).model)
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment for PreparedUps {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+    ) {
+        crate::kernels::RodAlignment::rod_alignment(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::RodAlignment for PreparedUps {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics for PreparedUps {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        actuator_acceleration: &mut [f64; 6],
+        rod_direction: &mut [[f64; 3]; 6],
+        hooke_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_position: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::LegKinematics::leg_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::LegKinematics for PreparedUps {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::BodyKinematics for PreparedUps {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        payload_com_position: &mut [f64; 3],
+        payload_com_velocity: &mut [f64; 3],
+        payload_com_acceleration: &mut [f64; 3],
+        leg_angular_velocity: &mut [[f64; 3]; 6],
+        leg_angular_acceleration: &mut [[f64; 3]; 6],
+        lower_com_position: &mut [[f64; 3]; 6],
+        lower_com_velocity: &mut [[f64; 3]; 6],
+        lower_com_acceleration: &mut [[f64; 3]; 6],
+        upper_com_position: &mut [[f64; 3]; 6],
+        upper_com_velocity: &mut [[f64; 3]; 6],
+        upper_com_acceleration: &mut [[f64; 3]; 6],
+    ) {
+        crate::kernels::ups::BodyKinematics::body_kinematics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::BodyKinematics for PreparedUps {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        leg_angular_velocity: &mut [[T; 3]; 6],
+        leg_angular_acceleration: &mut [[T; 3]; 6],
+        lower_com_position: &mut [[T; 3]; 6],
+        lower_com_velocity: &mut [[T; 3]; 6],
+        lower_com_acceleration: &mut [[T; 3]; 6],
+        upper_com_position: &mut [[T; 3]; 6],
+        upper_com_velocity: &mut [[T; 3]; 6],
+        upper_com_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::PartialVelocities for PreparedUps {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        payload_partial_velocity: &mut [[f64; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f64; 6]; 3],
+        lower_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
+    ) {
+        crate::kernels::ups::PartialVelocities::partial_velocities(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::PartialVelocities for PreparedUps {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        lower_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::GeneralisedForces for PreparedUps {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        payload_active_force: &mut [f64; 6],
+        payload_inertia_force: &mut [f64; 6],
+        lower_active_force: &mut [[f64; 6]; 6],
+        lower_inertia_force: &mut [[f64; 6]; 6],
+        upper_active_force: &mut [[f64; 6]; 6],
+        upper_inertia_force: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::ups::GeneralisedForces::generalised_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ups::GeneralisedForces for PreparedUps {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        lower_active_force: &mut [[T; 6]; 6],
+        lower_inertia_force: &mut [[T; 6]; 6],
+        upper_active_force: &mut [[T; 6]; 6],
+        upper_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp for PreparedUps {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDp::jacobian_dp(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDp for PreparedUps {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb for PreparedUps {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::JacobianDb::jacobian_db(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDb for PreparedUps {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP for PreparedUps {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixP::mass_matrix_p(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixP for PreparedUps {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB for PreparedUps {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::MassMatrixB::mass_matrix_b(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixB for PreparedUps {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices for PreparedUps {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::CoriolisMatrices::coriolis_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::CoriolisMatrices for PreparedUps {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices for PreparedUps {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::StiffnessMatrices::stiffness_matrices(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::StiffnessMatrices for PreparedUps {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices for PreparedUps {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.matrices;
+        crate::single_state!(
+            matrices_prepared_in_lanes, matrices; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6]; only in lanes prepared : [[f64; 4]; 25];
+            mass_matrix_p : [[f64; 6]; 6], coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp
+            : [[f64; 6]; 6], mass_matrix_b : [[f64; 6]; 6], coriolis_matrix_b : [[f64;
+            6]; 6], jacobian_db : [[f64; 6]; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Matrices for PreparedUps {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces for PreparedUps {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveForces::passive_forces(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveForces for PreparedUps {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias for PreparedUps {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::Bias::bias(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Bias for PreparedUps {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion for PreparedUps {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        coriolis_matrix_p: &mut [[f64; 6]; 6],
+        stiffness_matrix_p: &mut [[f64; 6]; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_b: &mut [[f64; 6]; 6],
+        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        stiffness_matrix_b: &mut [[f64; 6]; 6],
+        jacobian_db: &mut [[f64; 6]; 6],
+        gravity_force: &mut [f64; 6],
+        spring_force: &mut [f64; 6],
+        damping_force: &mut [f64; 6],
+        bias: &mut [f64; 6],
+    ) {
+        crate::kernels::EquationOfMotion::equation_of_motion(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::EquationOfMotion for PreparedUps {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics for PreparedUps {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.inverse_dynamics;
+        crate::single_state!(
+            inverse_dynamics_prepared_in_lanes, inverse_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 28]; inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::InverseDynamics for PreparedUps {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for PreparedUps {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        crate::kernels::ActuatorGeometry::actuator_geometry(
+            &self.model,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ActuatorGeometry for PreparedUps {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for PreparedUps {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.control;
+        crate::single_state!(
+            control_prepared_in_lanes, control; parameters : Parameters < f64 >,
+            base_position : [f64; 3], base_rotation : [[f64; 3]; 3], base_velocity :
+            [f64; 6], base_acceleration : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            platform_acceleration : [f64; 6], external_wrench : [f64; 6]; only in lanes
+            prepared : [[f64; 4]; 34]; actuator_length : [f64; 6], actuator_velocity :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Control for PreparedUps {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for PreparedUps {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        crate::kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveInverseDynamics for PreparedUps {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for PreparedUps {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        crate::kernels::BaseReaction::base_reaction(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::BaseReaction for PreparedUps {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics for PreparedUps {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        actuator_force: &[f64; 6],
+        external_wrench: &[f64; 6],
+        forward_dynamics: &mut [f64; 6],
+    ) {
+        let parameters = &self.model.parameters;
+        let prepared = &self.forward_dynamics;
+        crate::single_state!(
+            forward_dynamics_prepared_in_lanes, forward_dynamics; parameters : Parameters
+            < f64 >, base_position : [f64; 3], base_rotation : [[f64; 3]; 3],
+            base_velocity : [f64; 6], base_acceleration : [f64; 6], platform_position :
+            [f64; 3], platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6],
+            actuator_force : [f64; 6], external_wrench : [f64; 6]; only in lanes prepared
+            : [[f64; 4]; 41]; forward_dynamics : [f64; 6]
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ForwardDynamics for PreparedUps {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy for PreparedUps {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        kinetic_energy: &mut f64,
+        potential_energy: &mut f64,
+    ) {
+        crate::kernels::Energy::energy(
+            &self.model,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Energy for PreparedUps {
     #[inline(always)]
     fn energy<T: Scalar>(
         parameters: &Parameters<T>,
@@ -19526,151 +20951,236 @@ pub fn inverse_dynamics<T: Scalar>(
     let t723 = parameters.axial_damping[5] * t357;
     let t724 = mul_sub(parameters.axial_stiffness[5], t722, t723);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t725 = neg_mul_add(t42, t125, t45 * t123);
-    let t726 = neg_mul_add(t45, t121, t39 * t125);
-    let t727 = neg_mul_add(t39, t123, t42 * t121);
+    let t725 = mul_sub(t42, t125, t45 * t123);
+    let t726 = -t725;
+    let t727 = mul_sub(t45, t121, t39 * t125);
+    let t728 = -t727;
+    let t729 = mul_sub(t39, t123, t42 * t121);
+    let t730 = -t729;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t728 = neg_mul_add(t54, t131, t57 * t129);
-    let t729 = neg_mul_add(t57, t127, t51 * t131);
-    let t730 = neg_mul_add(t51, t129, t54 * t127);
+    let t731 = mul_sub(t54, t131, t57 * t129);
+    let t732 = -t731;
+    let t733 = mul_sub(t57, t127, t51 * t131);
+    let t734 = -t733;
+    let t735 = mul_sub(t51, t129, t54 * t127);
+    let t736 = -t735;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t731 = neg_mul_add(t66, t137, t69 * t135);
-    let t732 = neg_mul_add(t69, t133, t63 * t137);
-    let t733 = neg_mul_add(t63, t135, t66 * t133);
+    let t737 = mul_sub(t66, t137, t69 * t135);
+    let t738 = -t737;
+    let t739 = mul_sub(t69, t133, t63 * t137);
+    let t740 = -t739;
+    let t741 = mul_sub(t63, t135, t66 * t133);
+    let t742 = -t741;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t734 = neg_mul_add(t78, t143, t81 * t141);
-    let t735 = neg_mul_add(t81, t139, t75 * t143);
-    let t736 = neg_mul_add(t75, t141, t78 * t139);
+    let t743 = mul_sub(t78, t143, t81 * t141);
+    let t744 = -t743;
+    let t745 = mul_sub(t81, t139, t75 * t143);
+    let t746 = -t745;
+    let t747 = mul_sub(t75, t141, t78 * t139);
+    let t748 = -t747;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t737 = neg_mul_add(t90, t149, t93 * t147);
-    let t738 = neg_mul_add(t93, t145, t87 * t149);
-    let t739 = neg_mul_add(t87, t147, t90 * t145);
+    let t749 = mul_sub(t90, t149, t93 * t147);
+    let t750 = -t749;
+    let t751 = mul_sub(t93, t145, t87 * t149);
+    let t752 = -t751;
+    let t753 = mul_sub(t87, t147, t90 * t145);
+    let t754 = -t753;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t740 = neg_mul_add(t102, t155, t105 * t153);
-    let t741 = neg_mul_add(t105, t151, t99 * t155);
-    let t742 = neg_mul_add(t99, t153, t102 * t151);
+    let t755 = mul_sub(t102, t155, t105 * t153);
+    let t756 = -t755;
+    let t757 = mul_sub(t105, t151, t99 * t155);
+    let t758 = -t757;
+    let t759 = mul_sub(t99, t153, t102 * t151);
+    let t760 = -t759;
     // leg 1: moment about the platform origin of the leg's inertia at its joint
-    let t743 = mul_sub(t42, t626, t45 * t624);
-    let t744 = mul_sub(t45, t622, t39 * t626);
-    let t745 = mul_sub(t39, t624, t42 * t622);
+    let t761 = mul_sub(t42, t626, t45 * t624);
+    let t762 = mul_sub(t45, t622, t39 * t626);
+    let t763 = mul_sub(t39, t624, t42 * t622);
     // leg 2: moment about the platform origin of the leg's inertia at its joint
-    let t746 = mul_sub(t54, t642, t57 * t640);
-    let t747 = mul_sub(t57, t638, t51 * t642);
-    let t748 = mul_sub(t51, t640, t54 * t638);
+    let t764 = mul_sub(t54, t642, t57 * t640);
+    let t765 = mul_sub(t57, t638, t51 * t642);
+    let t766 = mul_sub(t51, t640, t54 * t638);
     // leg 4: moment about the platform origin of the leg's inertia at its joint
-    let t749 = mul_sub(t78, t674, t81 * t672);
-    let t750 = mul_sub(t81, t670, t75 * t674);
-    let t751 = mul_sub(t75, t672, t78 * t670);
+    let t767 = mul_sub(t78, t674, t81 * t672);
+    let t768 = mul_sub(t81, t670, t75 * t674);
+    let t769 = mul_sub(t75, t672, t78 * t670);
     // leg 6: moment about the platform origin of the leg's inertia at its joint
-    let t752 = mul_sub(t102, t706, t105 * t704);
-    let t753 = mul_sub(t105, t702, t99 * t706);
-    let t754 = mul_sub(t99, t704, t102 * t702);
+    let t770 = mul_sub(t102, t706, t105 * t704);
+    let t771 = mul_sub(t105, t702, t99 * t706);
+    let t772 = mul_sub(t99, t704, t102 * t702);
     // inertia force less weight, without the actuators' own shares
-    let t755 = mul_add(t211, t451, mul_add(t197, t443, t204 * t447));
-    let t756 = mul_add(t211, t460, mul_add(t197, t454, t204 * t457));
-    let t757 = mul_add(t211, t466, mul_add(t197, t462, t204 * t464));
+    let t773 = mul_add(t211, t451, mul_add(t197, t443, t204 * t447));
+    let t774 = mul_add(t211, t460, mul_add(t197, t454, t204 * t457));
+    let t775 = mul_add(t211, t466, mul_add(t197, t462, t204 * t464));
     // first moments by platform coordinate of the payload's inertia force
-    let t758 = mul_add(t256, t451, mul_add(t228, t443, t242 * t447));
-    let t759 = mul_sub(t197, t426, t758);
-    let t760 = mul_add(t285, t451, mul_add(t242, t443, t271 * t447));
-    let t761 = mul_sub(t204, t426, t760);
-    let t762 = mul_add(t300, t451, mul_add(t256, t443, t285 * t447));
-    let t763 = mul_sub(t211, t426, t762);
-    let t764 = mul_add(t256, t460, mul_add(t228, t454, t242 * t457));
-    let t765 = mul_sub(t197, t428, t764);
-    let t766 = mul_add(t285, t460, mul_add(t242, t454, t271 * t457));
-    let t767 = mul_sub(t204, t428, t766);
-    let t768 = mul_add(t300, t460, mul_add(t256, t454, t285 * t457));
-    let t769 = mul_sub(t211, t428, t768);
-    let t770 = mul_add(t256, t466, mul_add(t228, t462, t242 * t464));
-    let t771 = mul_sub(t197, t430, t770);
-    let t772 = mul_add(t285, t466, mul_add(t242, t462, t271 * t464));
-    let t773 = mul_sub(t204, t430, t772);
-    let t774 = mul_add(t300, t466, mul_add(t256, t462, t285 * t464));
-    let t775 = mul_sub(t211, t430, t774);
+    let t776 = mul_add(t256, t451, mul_add(t228, t443, t242 * t447));
+    let t777 = mul_sub(t197, t426, t776);
+    let t778 = mul_add(t285, t451, mul_add(t242, t443, t271 * t447));
+    let t779 = mul_sub(t204, t426, t778);
+    let t780 = mul_add(t300, t451, mul_add(t256, t443, t285 * t447));
+    let t781 = mul_sub(t211, t426, t780);
+    let t782 = mul_add(t256, t460, mul_add(t228, t454, t242 * t457));
+    let t783 = mul_sub(t197, t428, t782);
+    let t784 = mul_add(t285, t460, mul_add(t242, t454, t271 * t457));
+    let t785 = mul_sub(t204, t428, t784);
+    let t786 = mul_add(t300, t460, mul_add(t256, t454, t285 * t457));
+    let t787 = mul_sub(t211, t428, t786);
+    let t788 = mul_add(t256, t466, mul_add(t228, t462, t242 * t464));
+    let t789 = mul_sub(t197, t430, t788);
+    let t790 = mul_add(t285, t466, mul_add(t242, t462, t271 * t464));
+    let t791 = mul_sub(t204, t430, t790);
+    let t792 = mul_add(t300, t466, mul_add(t256, t462, t285 * t464));
+    let t793 = mul_sub(t211, t430, t792);
     // moment of the legs' inertia at their joints about the platform origin
-    let t776 = neg_mul_add(t69, t656, mul_add(t66, t658, t749));
-    let t777 = neg_mul_add(t93, t688, mul_add(t90, t690, t752));
-    let t778 = t743 + t746 + t776 + t777;
-    let t779 = neg_mul_add(t63, t658, mul_add(t69, t654, t750));
-    let t780 = neg_mul_add(t87, t690, mul_add(t93, t686, t753));
-    let t781 = t744 + t747 + t779 + t780;
-    let t782 = neg_mul_add(t66, t654, mul_add(t63, t656, t751));
-    let t783 = neg_mul_add(t90, t686, mul_add(t87, t688, t754));
-    let t784 = t745 + t748 + t782 + t783;
+    let t794 = neg_mul_add(t69, t656, mul_add(t66, t658, t767));
+    let t795 = neg_mul_add(t93, t688, mul_add(t90, t690, t770));
+    let t796 = t761 + t764 + t794 + t795;
+    let t797 = neg_mul_add(t63, t658, mul_add(t69, t654, t768));
+    let t798 = neg_mul_add(t87, t690, mul_add(t93, t686, t771));
+    let t799 = t762 + t765 + t797 + t798;
+    let t800 = neg_mul_add(t66, t654, mul_add(t63, t656, t769));
+    let t801 = neg_mul_add(t90, t686, mul_add(t87, t688, t772));
+    let t802 = t763 + t766 + t800 + t801;
     // inertia less external wrench that the actuators must balance
-    let t785 = base_rotation[1][0] * external_wrench[1];
-    let t786 = mul_add(base_rotation[0][0], external_wrench[0], t785);
-    let t787 = mul_add(base_rotation[2][0], external_wrench[2], t786);
-    let t788 = t654 + (t638 + (t622 + (t755 + mul_sub(t190, t426, t787))));
-    let t789 = t702 + (t686 + (t670 + t788));
-    let t790 = base_rotation[1][1] * external_wrench[1];
-    let t791 = mul_add(base_rotation[0][1], external_wrench[0], t790);
-    let t792 = mul_add(base_rotation[2][1], external_wrench[2], t791);
-    let t793 = t656 + (t640 + (t624 + (t756 + mul_sub(t190, t428, t792))));
-    let t794 = t704 + (t688 + (t672 + t793));
-    let t795 = base_rotation[1][2] * external_wrench[1];
-    let t796 = mul_add(base_rotation[0][2], external_wrench[0], t795);
-    let t797 = mul_add(base_rotation[2][2], external_wrench[2], t796);
-    let t798 = t658 + (t642 + (t626 + (t757 + mul_sub(t190, t430, t797))));
-    let t799 = t706 + (t690 + (t674 + t798));
-    let t800 = neg_mul_add(parameters.payload_com[0], t797, t771);
-    let t801 = neg_mul_add(parameters.payload_com[0], t792, t765);
-    let t802 = neg_mul_add(parameters.payload_com[1], t797, t773);
-    let t803 = neg_mul_add(parameters.payload_com[1], t792, t767);
-    let t804 = mul_sub(t15, t802, t24 * t803);
-    let t805 = neg_mul_add(parameters.payload_com[2], t792, t769);
-    let t806 = neg_mul_add(parameters.payload_com[2], t797, t775);
-    let t807 = base_rotation[1][0] * external_wrench[4];
-    let t808 = mul_add(base_rotation[0][0], external_wrench[3], t807);
-    let t809 = mul_add(base_rotation[2][0], external_wrench[5], t808);
-    let t810 = neg_mul_add(t27, t805, mul_sub(t18, t806, t809));
-    let t811 = t778 + (mul_sub(t12, t800, t21 * t801) + t804 + t810);
-    let t812 = neg_mul_add(parameters.payload_com[0], t787, t759);
-    let t813 = neg_mul_add(parameters.payload_com[1], t787, t761);
-    let t814 = mul_sub(t24, t813, t6 * t802);
-    let t815 = neg_mul_add(parameters.payload_com[2], t787, t763);
-    let t816 = base_rotation[1][1] * external_wrench[4];
-    let t817 = mul_add(base_rotation[0][1], external_wrench[3], t816);
-    let t818 = mul_add(base_rotation[2][1], external_wrench[5], t817);
-    let t819 = neg_mul_add(t9, t806, mul_sub(t27, t815, t818));
-    let t820 = t781 + (mul_sub(t21, t812, t3 * t800) + t814 + t819);
-    let t821 = mul_sub(t6, t803, t15 * t813);
-    let t822 = base_rotation[1][2] * external_wrench[4];
-    let t823 = mul_add(base_rotation[0][2], external_wrench[3], t822);
-    let t824 = mul_add(base_rotation[2][2], external_wrench[5], t823);
-    let t825 = neg_mul_add(t18, t815, mul_sub(t9, t805, t824));
-    let t826 = t784 + (mul_sub(t3, t801, t12 * t812) + t821 + t825);
+    let t803 = base_rotation[1][0] * external_wrench[1];
+    let t804 = mul_add(base_rotation[0][0], external_wrench[0], t803);
+    let t805 = mul_add(base_rotation[2][0], external_wrench[2], t804);
+    let t806 = t654 + (t638 + (t622 + (t773 + mul_sub(t190, t426, t805))));
+    let t807 = t702 + (t686 + (t670 + t806));
+    let t808 = base_rotation[1][1] * external_wrench[1];
+    let t809 = mul_add(base_rotation[0][1], external_wrench[0], t808);
+    let t810 = mul_add(base_rotation[2][1], external_wrench[2], t809);
+    let t811 = t656 + (t640 + (t624 + (t774 + mul_sub(t190, t428, t810))));
+    let t812 = t704 + (t688 + (t672 + t811));
+    let t813 = base_rotation[1][2] * external_wrench[1];
+    let t814 = mul_add(base_rotation[0][2], external_wrench[0], t813);
+    let t815 = mul_add(base_rotation[2][2], external_wrench[2], t814);
+    let t816 = t658 + (t642 + (t626 + (t775 + mul_sub(t190, t430, t815))));
+    let t817 = t706 + (t690 + (t674 + t816));
+    let t818 = neg_mul_add(parameters.payload_com[0], t815, t789);
+    let t819 = neg_mul_add(parameters.payload_com[0], t810, t783);
+    let t820 = neg_mul_add(parameters.payload_com[1], t815, t791);
+    let t821 = neg_mul_add(parameters.payload_com[1], t810, t785);
+    let t822 = mul_sub(t15, t820, t24 * t821);
+    let t823 = neg_mul_add(parameters.payload_com[2], t810, t787);
+    let t824 = neg_mul_add(parameters.payload_com[2], t815, t793);
+    let t825 = base_rotation[1][0] * external_wrench[4];
+    let t826 = mul_add(base_rotation[0][0], external_wrench[3], t825);
+    let t827 = mul_add(base_rotation[2][0], external_wrench[5], t826);
+    let t828 = neg_mul_add(t27, t823, mul_sub(t18, t824, t827));
+    let t829 = t796 + (mul_sub(t12, t818, t21 * t819) + t822 + t828);
+    let t830 = neg_mul_add(parameters.payload_com[0], t805, t777);
+    let t831 = neg_mul_add(parameters.payload_com[1], t805, t779);
+    let t832 = mul_sub(t24, t831, t6 * t820);
+    let t833 = neg_mul_add(parameters.payload_com[2], t805, t781);
+    let t834 = base_rotation[1][1] * external_wrench[4];
+    let t835 = mul_add(base_rotation[0][1], external_wrench[3], t834);
+    let t836 = mul_add(base_rotation[2][1], external_wrench[5], t835);
+    let t837 = neg_mul_add(t9, t824, mul_sub(t27, t833, t836));
+    let t838 = t799 + (mul_sub(t21, t830, t3 * t818) + t832 + t837);
+    let t839 = mul_sub(t6, t821, t15 * t831);
+    let t840 = base_rotation[1][2] * external_wrench[4];
+    let t841 = mul_add(base_rotation[0][2], external_wrench[3], t840);
+    let t842 = mul_add(base_rotation[2][2], external_wrench[5], t841);
+    let t843 = neg_mul_add(t18, t833, mul_sub(t9, t823, t842));
+    let t844 = t802 + (mul_sub(t3, t819, t12 * t830) + t839 + t843);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t845 = mul_sub(t123, t137, t125 * t135);
+    let t846 = mul_sub(t135, t149, t137 * t147);
+    let t847 = mul_sub(t125, t147, t123 * t149);
+    let t848 = mul_add(t145, t845, mul_add(t121, t846, t133 * t847));
+    let t849 = c(1.0) / t848;
+    let t850 = mul_sub(t133, t147, t135 * t145);
+    let t851 = mul_sub(t137, t145, t133 * t149);
+    let t852 = mul_add(t155, t850, mul_add(t151, t846, t153 * t851));
+    let t853 = mul_sub(t121, t135, t123 * t133);
+    let t854 = mul_sub(t125, t133, t121 * t137);
+    let t855 = mul_add(t155, t853, mul_add(t151, t845, t153 * t854));
+    let t856 = mul_sub(t123, t145, t121 * t147);
+    let t857 = mul_sub(t121, t149, t125 * t145);
+    let t858 = mul_add(t155, t856, mul_add(t151, t847, t153 * t857));
+    let t859 = neg_mul_add(t737, t858, mul_sub(t755, t848, t725 * t852));
+    let t860 = neg_mul_add(t749, t855, t859);
+    let t861 = mul_add(t131, t853, mul_add(t127, t845, t129 * t854));
+    let t862 = mul_add(t131, t856, mul_add(t127, t847, t129 * t857));
+    let t863 = mul_add(t131, t850, mul_add(t127, t846, t129 * t851));
+    let t864 = neg_mul_add(t739, t862, mul_sub(t733, t848, t727 * t863));
+    let t865 = neg_mul_add(t751, t861, t864);
+    let t866 = mul_add(t143, t853, mul_add(t139, t845, t141 * t854));
+    let t867 = mul_add(t143, t856, mul_add(t139, t847, t141 * t857));
+    let t868 = mul_add(t143, t850, mul_add(t139, t846, t141 * t851));
+    let t869 = neg_mul_add(t741, t867, mul_sub(t747, t848, t729 * t868));
+    let t870 = neg_mul_add(t753, t866, t869);
+    let t871 = neg_mul_add(t739, t867, mul_sub(t745, t848, t727 * t868));
+    let t872 = neg_mul_add(t751, t866, t871);
+    let t873 = neg_mul_add(t741, t862, mul_sub(t735, t848, t729 * t863));
+    let t874 = neg_mul_add(t753, t861, t873);
+    let t875 = mul_sub(t865, t870, t872 * t874);
+    let t876 = neg_mul_add(t737, t862, mul_sub(t731, t848, t725 * t863));
+    let t877 = neg_mul_add(t749, t861, t876);
+    let t878 = neg_mul_add(t741, t858, mul_sub(t759, t848, t729 * t852));
+    let t879 = neg_mul_add(t753, t855, t878);
+    let t880 = neg_mul_add(t739, t858, mul_sub(t757, t848, t727 * t852));
+    let t881 = neg_mul_add(t751, t855, t880);
+    let t882 = mul_sub(t872, t879, t881 * t870);
+    let t883 = neg_mul_add(t737, t867, mul_sub(t743, t848, t725 * t868));
+    let t884 = neg_mul_add(t749, t866, t883);
+    let t885 = mul_sub(t881, t874, t865 * t879);
+    let t886 = c(1.0) / mul_add(t860, t875, mul_add(t877, t882, t884 * t885));
+    let t887 = mul_add(t817, t853, mul_add(t807, t845, t812 * t854));
+    let t888 = mul_add(t817, t856, mul_add(t807, t847, t812 * t857));
+    let t889 = mul_add(t817, t850, mul_add(t807, t846, t812 * t851));
+    let t890 = neg_mul_add(t741, t888, mul_sub(t844, t848, t729 * t889));
+    let t891 = neg_mul_add(t753, t887, t890);
+    let t892 = neg_mul_add(t737, t888, mul_sub(t829, t848, t725 * t889));
+    let t893 = neg_mul_add(t749, t887, t892);
+    let t894 = neg_mul_add(t739, t888, mul_sub(t838, t848, t727 * t889));
+    let t895 = neg_mul_add(t751, t887, t894);
+    let t896 = mul_add(t893, t875, t895 * mul_sub(t884, t874, t877 * t870));
+    let t897 = t886 * mul_add(t891, mul_sub(t877, t872, t884 * t865), t896);
+    let t898 = mul_add(t893, t885, t895 * mul_sub(t877, t879, t860 * t874));
+    let t899 = t886 * mul_add(t891, mul_sub(t860, t865, t877 * t881), t898);
+    let t900 = mul_add(t893, t882, t895 * mul_sub(t860, t870, t884 * t879));
+    let t901 = t886 * mul_add(t891, mul_sub(t884, t881, t860 * t872), t900);
+    let t902 = neg_mul_add(t868, t899, neg_mul_add(t863, t901, t889));
+    let t903 = t849 * mul_sub(t852, t897, t902);
+    let t904 = -t901;
+    let t905 = neg_mul_add(t867, t899, neg_mul_add(t862, t901, t888));
+    let t906 = t849 * mul_sub(t858, t897, t905);
+    let t907 = -t899;
+    let t908 = neg_mul_add(t866, t899, neg_mul_add(t861, t901, t887));
+    let t909 = t849 * mul_sub(t855, t897, t908);
+    let t910 = -t897;
+    let axial_reaction = solve_after_attempt(
+        &[t903, t904, t906, t907, t909, t910],
         &[
             [t122, t128, t134, t140, t146, t152],
             [t124, t130, t136, t142, t148, t154],
             [t126, t132, t138, t144, t150, t156],
-            [t725, t728, t731, t734, t737, t740],
-            [t726, t729, t732, t735, t738, t741],
-            [t727, t730, t733, t736, t739, t742],
+            [t726, t732, t738, t744, t750, t756],
+            [t728, t734, t740, t746, t752, t758],
+            [t730, t736, t742, t748, t754, t760],
         ],
-        &[t789, t794, t799, t811, t820, t826],
+        &[t807, t812, t817, t829, t838, t844],
     );
     // leg 1: actuator forces F
-    let t827 = neg_mul_add(t613, t614, mul_add(t611, t612, t709));
-    inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t615, t620, t827);
+    let t911 = neg_mul_add(t613, t614, mul_add(t611, t612, t709));
+    inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t615, t620, t911);
     // leg 2: actuator forces F
-    let t828 = neg_mul_add(t629, t630, mul_add(t627, t628, t712));
-    inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t631, t636, t828);
+    let t912 = neg_mul_add(t629, t630, mul_add(t627, t628, t712));
+    inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t631, t636, t912);
     // leg 3: actuator forces F
-    let t829 = neg_mul_add(t645, t646, mul_add(t643, t644, t715));
-    inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t647, t652, t829);
+    let t913 = neg_mul_add(t645, t646, mul_add(t643, t644, t715));
+    inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t647, t652, t913);
     // leg 4: actuator forces F
-    let t830 = neg_mul_add(t661, t662, mul_add(t659, t660, t718));
-    inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t663, t668, t830);
+    let t914 = neg_mul_add(t661, t662, mul_add(t659, t660, t718));
+    inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t663, t668, t914);
     // leg 5: actuator forces F
-    let t831 = neg_mul_add(t677, t678, mul_add(t675, t676, t721));
-    inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t679, t684, t831);
+    let t915 = neg_mul_add(t677, t678, mul_add(t675, t676, t721));
+    inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t679, t684, t915);
     // leg 6: actuator forces F
-    let t832 = neg_mul_add(t693, t694, mul_add(t691, t692, t724));
-    inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t695, t700, t832);
+    let t916 = neg_mul_add(t693, t694, mul_add(t691, t692, t724));
+    inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t695, t700, t916);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -21459,54 +22969,119 @@ pub fn control<T: Scalar>(
         let t1119 = mul_add(platform_acceleration[2], t468, t1118);
         let t1120 = mul_add(platform_acceleration[3], t474, t1119);
         let t1121 = mul_sub(platform_acceleration[4], t548, t1120);
-        let t1122 = neg_mul_add(platform_acceleration[5], t551, t1121);
-        let t1123 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1096);
-        let t1124 = mul_sub(platform_acceleration[1], t552, t1123);
-        let t1125 = mul_sub(platform_acceleration[2], t489, t1124);
-        let t1126 = mul_add(platform_acceleration[3], t553, t1125);
-        let t1127 = mul_add(platform_acceleration[4], t508, t1126);
-        let t1128 = mul_sub(platform_acceleration[5], t556, t1127);
-        let t1129 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1101);
-        let t1130 = mul_add(platform_acceleration[1], t489, t1129);
-        let t1131 = mul_sub(platform_acceleration[2], t557, t1130);
-        let t1132 = mul_add(platform_acceleration[3], t558, t1131);
-        let t1133 = mul_sub(platform_acceleration[4], t559, t1132);
-        let t1134 = mul_sub(platform_acceleration[5], t533, t1133);
-        let t1135 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1136 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1135);
-        let t1137 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1136);
-        let t1138 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1139 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1138);
-        let t1140 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1139);
-        let t1141 = mul_add(platform_acceleration[0], t474, external_wrench[3] - t1106);
-        let t1142 = mul_add(platform_acceleration[1], t553, t1141);
-        let t1143 = mul_sub(platform_acceleration[2], t558, t1142);
-        let t1144 = mul_sub(platform_acceleration[3], t575, t1143);
-        let t1145 = mul_add(platform_acceleration[4], t583, t1144);
-        let t1146 = mul_add(platform_acceleration[5], t591, t1145);
-        let t1147 = mul_add(external_wrench[2], t1140, t1146);
-        let t1148 = mul_sub(external_wrench[1], t1137, t1147);
-        let t1149 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1150 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1149);
-        let t1151 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1150);
-        let t1152 = mul_sub(platform_acceleration[0], t548, external_wrench[4] - t1111);
-        let t1153 = mul_sub(platform_acceleration[1], t508, t1152);
-        let t1154 = mul_add(platform_acceleration[2], t559, t1153);
-        let t1155 = mul_add(platform_acceleration[3], t583, t1154);
-        let t1156 = mul_add(platform_acceleration[4], t606, t1155);
-        let t1157 = mul_add(platform_acceleration[5], t614, t1156);
-        let t1158 = mul_add(external_wrench[0], t1137, t1157);
-        let t1159 = mul_sub(external_wrench[2], t1151, t1158);
-        let t1160 = mul_add(platform_acceleration[0], t551, external_wrench[5] - t1116);
-        let t1161 = mul_sub(platform_acceleration[1], t556, t1160);
-        let t1162 = mul_add(platform_acceleration[2], t533, t1161);
-        let t1163 = mul_sub(platform_acceleration[3], t591, t1162);
-        let t1164 = mul_add(platform_acceleration[4], t614, t1163);
-        let t1165 = mul_add(platform_acceleration[5], t629, t1164);
-        let t1166 = mul_add(external_wrench[1], t1151, t1165);
-        let t1167 = mul_sub(external_wrench[0], t1140, t1166);
+        let t1122 = mul_sub(platform_acceleration[5], t551, t1121);
+        let t1123 = -t1122;
+        let t1124 = mul_add(platform_acceleration[0], t465, external_wrench[1] - t1096);
+        let t1125 = mul_sub(platform_acceleration[1], t552, t1124);
+        let t1126 = mul_sub(platform_acceleration[2], t489, t1125);
+        let t1127 = mul_add(platform_acceleration[3], t553, t1126);
+        let t1128 = mul_add(platform_acceleration[4], t508, t1127);
+        let t1129 = mul_sub(platform_acceleration[5], t556, t1128);
+        let t1130 = mul_add(platform_acceleration[0], t468, external_wrench[2] - t1101);
+        let t1131 = mul_add(platform_acceleration[1], t489, t1130);
+        let t1132 = mul_sub(platform_acceleration[2], t557, t1131);
+        let t1133 = mul_add(platform_acceleration[3], t558, t1132);
+        let t1134 = mul_sub(platform_acceleration[4], t559, t1133);
+        let t1135 = mul_sub(platform_acceleration[5], t533, t1134);
+        let t1136 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1137 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1136);
+        let t1138 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1137);
+        let t1139 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1140 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1139);
+        let t1141 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1140);
+        let t1142 = mul_add(platform_acceleration[0], t474, external_wrench[3] - t1106);
+        let t1143 = mul_add(platform_acceleration[1], t553, t1142);
+        let t1144 = mul_sub(platform_acceleration[2], t558, t1143);
+        let t1145 = mul_sub(platform_acceleration[3], t575, t1144);
+        let t1146 = mul_add(platform_acceleration[4], t583, t1145);
+        let t1147 = mul_add(platform_acceleration[5], t591, t1146);
+        let t1148 = mul_add(external_wrench[2], t1141, t1147);
+        let t1149 = mul_sub(external_wrench[1], t1138, t1148);
+        let t1150 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1151 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1150);
+        let t1152 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1151);
+        let t1153 = mul_sub(platform_acceleration[0], t548, external_wrench[4] - t1111);
+        let t1154 = mul_sub(platform_acceleration[1], t508, t1153);
+        let t1155 = mul_add(platform_acceleration[2], t559, t1154);
+        let t1156 = mul_add(platform_acceleration[3], t583, t1155);
+        let t1157 = mul_add(platform_acceleration[4], t606, t1156);
+        let t1158 = mul_add(platform_acceleration[5], t614, t1157);
+        let t1159 = mul_add(external_wrench[0], t1138, t1158);
+        let t1160 = mul_sub(external_wrench[2], t1152, t1159);
+        let t1161 = mul_add(platform_acceleration[0], t551, external_wrench[5] - t1116);
+        let t1162 = mul_sub(platform_acceleration[1], t556, t1161);
+        let t1163 = mul_add(platform_acceleration[2], t533, t1162);
+        let t1164 = mul_sub(platform_acceleration[3], t591, t1163);
+        let t1165 = mul_add(platform_acceleration[4], t614, t1164);
+        let t1166 = mul_add(platform_acceleration[5], t629, t1165);
+        let t1167 = mul_add(external_wrench[1], t1152, t1166);
+        let t1168 = mul_sub(external_wrench[0], t1141, t1167);
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1169 = mul_sub(t196, t210, t198 * t208);
+        let t1170 = mul_sub(t208, t222, t210 * t220);
+        let t1171 = mul_sub(t198, t220, t196 * t222);
+        let t1172 = mul_add(t218, t1169, mul_add(t194, t1170, t206 * t1171));
+        let t1173 = c(1.0) / t1172;
+        let t1174 = mul_sub(t206, t220, t208 * t218);
+        let t1175 = mul_sub(t210, t218, t206 * t222);
+        let t1176 = mul_add(t228, t1174, mul_add(t224, t1170, t226 * t1175));
+        let t1177 = mul_sub(t194, t208, t196 * t206);
+        let t1178 = mul_sub(t198, t206, t194 * t210);
+        let t1179 = mul_add(t228, t1177, mul_add(t224, t1169, t226 * t1178));
+        let t1180 = mul_sub(t196, t218, t194 * t220);
+        let t1181 = mul_sub(t194, t222, t198 * t218);
+        let t1182 = mul_add(t228, t1180, mul_add(t224, t1171, t226 * t1181));
+        let t1183 = mul_sub(t235, t1182, mul_sub(t244, t1172, t229 * t1176));
+        let t1184 = mul_add(t241, t1179, t1183);
+        let t1185 = mul_add(t204, t1177, mul_add(t200, t1169, t202 * t1178));
+        let t1186 = mul_add(t204, t1180, mul_add(t200, t1171, t202 * t1181));
+        let t1187 = mul_add(t204, t1174, mul_add(t200, t1170, t202 * t1175));
+        let t1188 = mul_sub(t236, t1186, mul_sub(t233, t1172, t230 * t1187));
+        let t1189 = mul_add(t242, t1185, t1188);
+        let t1190 = mul_add(t216, t1177, mul_add(t212, t1169, t214 * t1178));
+        let t1191 = mul_add(t216, t1180, mul_add(t212, t1171, t214 * t1181));
+        let t1192 = mul_add(t216, t1174, mul_add(t212, t1170, t214 * t1175));
+        let t1193 = mul_sub(t237, t1191, mul_sub(t240, t1172, t231 * t1192));
+        let t1194 = mul_add(t243, t1190, t1193);
+        let t1195 = mul_sub(t236, t1191, mul_sub(t239, t1172, t230 * t1192));
+        let t1196 = mul_add(t242, t1190, t1195);
+        let t1197 = mul_sub(t237, t1186, mul_sub(t234, t1172, t231 * t1187));
+        let t1198 = mul_add(t243, t1185, t1197);
+        let t1199 = mul_sub(t1189, t1194, t1196 * t1198);
+        let t1200 = mul_sub(t235, t1186, mul_sub(t232, t1172, t229 * t1187));
+        let t1201 = mul_add(t241, t1185, t1200);
+        let t1202 = mul_sub(t237, t1182, mul_sub(t246, t1172, t231 * t1176));
+        let t1203 = mul_add(t243, t1179, t1202);
+        let t1204 = mul_sub(t236, t1182, mul_sub(t245, t1172, t230 * t1176));
+        let t1205 = mul_add(t242, t1179, t1204);
+        let t1206 = mul_sub(t1196, t1203, t1205 * t1194);
+        let t1207 = mul_sub(t235, t1191, mul_sub(t238, t1172, t229 * t1192));
+        let t1208 = mul_add(t241, t1190, t1207);
+        let t1209 = mul_sub(t1205, t1198, t1189 * t1203);
+        let t1210 = c(1.0) / mul_add(t1184, t1199, mul_add(t1201, t1206, t1208 * t1209));
+        let t1211 = mul_sub(t1135, t1177, mul_sub(t1122, t1169, t1129 * t1178));
+        let t1212 = mul_sub(t1135, t1180, mul_sub(t1122, t1171, t1129 * t1181));
+        let t1213 = mul_sub(t1135, t1174, mul_sub(t1122, t1170, t1129 * t1175));
+        let t1214 = mul_sub(t237, t1212, mul_sub(t1168, t1172, t231 * t1213));
+        let t1215 = mul_add(t243, t1211, t1214);
+        let t1216 = mul_sub(t235, t1212, mul_sub(t1149, t1172, t229 * t1213));
+        let t1217 = mul_add(t241, t1211, t1216);
+        let t1218 = mul_sub(t236, t1212, mul_sub(t1160, t1172, t230 * t1213));
+        let t1219 = mul_add(t242, t1211, t1218);
+        let t1220 = mul_add(t1217, t1199, t1219 * mul_sub(t1208, t1198, t1201 * t1194));
+        let t1221 = t1210 * mul_add(t1215, mul_sub(t1201, t1196, t1208 * t1189), t1220);
+        let t1222 = mul_add(t1217, t1209, t1219 * mul_sub(t1201, t1203, t1184 * t1198));
+        let t1223 = t1210 * mul_add(t1215, mul_sub(t1184, t1189, t1201 * t1205), t1222);
+        let t1224 = mul_add(t1217, t1206, t1219 * mul_sub(t1184, t1194, t1208 * t1203));
+        let t1225 = t1210 * mul_add(t1215, mul_sub(t1208, t1205, t1184 * t1196), t1224);
+        let t1226 = neg_mul_add(t1192, t1223, neg_mul_add(t1187, t1225, t1213));
+        let t1227 = t1173 * neg_mul_add(t1176, t1221, t1226);
+        let t1228 = neg_mul_add(t1191, t1223, neg_mul_add(t1186, t1225, t1212));
+        let t1229 = t1173 * neg_mul_add(t1182, t1221, t1228);
+        let t1230 = neg_mul_add(t1190, t1223, neg_mul_add(t1185, t1225, t1211));
+        let t1231 = t1173 * neg_mul_add(t1179, t1221, t1230);
+        let axial_reaction = solve_after_attempt(
+            &[t1227, t1225, t1229, t1223, t1231, t1221],
             &[
                 [t194, t200, t206, t212, t218, t224],
                 [t196, t202, t208, t214, t220, t226],
@@ -21515,7 +23090,7 @@ pub fn control<T: Scalar>(
                 [t230, t233, t236, t239, t242, t245],
                 [t231, t234, t237, t240, t243, t246],
             ],
-            &[t1122, t1128, t1134, t1148, t1159, t1167],
+            &[t1123, t1129, t1135, t1149, t1160, t1168],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -21562,17 +23137,19 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t122, t124, t126, t128, t130,
-        t132, t134, t136, t138, t140, t142, t144, t146, t148, t150, t152, t154, t156, t190, t197,
-        t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427, t429, t431, t627,
-        t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646, t647, t648, t649, t662,
-        t663, t664, t665, t685, t687, t689, t691, t692, t705, t706, t707, t708, t728, t730, t732,
-        t734, t735, t748, t749, t750, t751, t771, t773, t775, t777, t778, t791, t792, t793, t794,
-        t814, t816, t818, t820, t821, t834, t835, t836, t837, t857, t859, t861, t863, t864, t877,
-        t878, t879, t880, t900, t902, t904, t906, t909, t912, t915, t918, t921, t924, t925, t926,
-        t927, t928, t929, t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941,
-        t942, t955, t956, t957, t958, t959, t960, t961, t962, t963, t964, t965, t966, t968, t970,
-        t972,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t121, t122, t123, t124, t125,
+        t126, t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138, t139, t140,
+        t141, t142, t143, t144, t145, t146, t147, t148, t149, t150, t151, t152, t153, t154, t155,
+        t156, t190, t197, t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427,
+        t429, t431, t627, t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646, t647,
+        t648, t649, t662, t663, t664, t665, t685, t687, t689, t691, t692, t705, t706, t707, t708,
+        t728, t730, t732, t734, t735, t748, t749, t750, t751, t771, t773, t775, t777, t778, t791,
+        t792, t793, t794, t814, t816, t818, t820, t821, t834, t835, t836, t837, t857, t859, t861,
+        t863, t864, t877, t878, t879, t880, t900, t902, t904, t906, t909, t912, t915, t918, t921,
+        t924, t925, t926, t927, t928, t929, t930, t931, t932, t933, t934, t935, t936, t937, t938,
+        t939, t940, t941, t942, t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953,
+        t954, t955, t956, t957, t958, t959, t960, t973, t974, t975, t976, t977, t978, t979, t980,
+        t981, t982, t983, t984, t986, t988, t990,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -22607,181 +24184,269 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t923 = parameters.axial_damping[5] * t358;
         let t924 = mul_sub(parameters.axial_stiffness[5], t922, t923);
         // leg 1: row of the actuator Jacobian in base coordinates
-        let t925 = neg_mul_add(t42, t125, t45 * t123);
-        let t926 = neg_mul_add(t45, t121, t39 * t125);
-        let t927 = neg_mul_add(t39, t123, t42 * t121);
+        let t925 = mul_sub(t42, t125, t45 * t123);
+        let t926 = -t925;
+        let t927 = mul_sub(t45, t121, t39 * t125);
+        let t928 = -t927;
+        let t929 = mul_sub(t39, t123, t42 * t121);
+        let t930 = -t929;
         // leg 2: row of the actuator Jacobian in base coordinates
-        let t928 = neg_mul_add(t54, t131, t57 * t129);
-        let t929 = neg_mul_add(t57, t127, t51 * t131);
-        let t930 = neg_mul_add(t51, t129, t54 * t127);
+        let t931 = mul_sub(t54, t131, t57 * t129);
+        let t932 = -t931;
+        let t933 = mul_sub(t57, t127, t51 * t131);
+        let t934 = -t933;
+        let t935 = mul_sub(t51, t129, t54 * t127);
+        let t936 = -t935;
         // leg 3: row of the actuator Jacobian in base coordinates
-        let t931 = neg_mul_add(t66, t137, t69 * t135);
-        let t932 = neg_mul_add(t69, t133, t63 * t137);
-        let t933 = neg_mul_add(t63, t135, t66 * t133);
+        let t937 = mul_sub(t66, t137, t69 * t135);
+        let t938 = -t937;
+        let t939 = mul_sub(t69, t133, t63 * t137);
+        let t940 = -t939;
+        let t941 = mul_sub(t63, t135, t66 * t133);
+        let t942 = -t941;
         // leg 4: row of the actuator Jacobian in base coordinates
-        let t934 = neg_mul_add(t78, t143, t81 * t141);
-        let t935 = neg_mul_add(t81, t139, t75 * t143);
-        let t936 = neg_mul_add(t75, t141, t78 * t139);
+        let t943 = mul_sub(t78, t143, t81 * t141);
+        let t944 = -t943;
+        let t945 = mul_sub(t81, t139, t75 * t143);
+        let t946 = -t945;
+        let t947 = mul_sub(t75, t141, t78 * t139);
+        let t948 = -t947;
         // leg 5: row of the actuator Jacobian in base coordinates
-        let t937 = neg_mul_add(t90, t149, t93 * t147);
-        let t938 = neg_mul_add(t93, t145, t87 * t149);
-        let t939 = neg_mul_add(t87, t147, t90 * t145);
+        let t949 = mul_sub(t90, t149, t93 * t147);
+        let t950 = -t949;
+        let t951 = mul_sub(t93, t145, t87 * t149);
+        let t952 = -t951;
+        let t953 = mul_sub(t87, t147, t90 * t145);
+        let t954 = -t953;
         // leg 6: row of the actuator Jacobian in base coordinates
-        let t940 = neg_mul_add(t102, t155, t105 * t153);
-        let t941 = neg_mul_add(t105, t151, t99 * t155);
-        let t942 = neg_mul_add(t99, t153, t102 * t151);
+        let t955 = mul_sub(t102, t155, t105 * t153);
+        let t956 = -t955;
+        let t957 = mul_sub(t105, t151, t99 * t155);
+        let t958 = -t957;
+        let t959 = mul_sub(t99, t153, t102 * t151);
+        let t960 = -t959;
         // leg 1: moment about the platform origin of the leg's inertia at its joint
-        let t943 = mul_sub(t42, t691, t45 * t689);
-        let t944 = mul_sub(t45, t687, t39 * t691);
-        let t945 = mul_sub(t39, t689, t42 * t687);
+        let t961 = mul_sub(t42, t691, t45 * t689);
+        let t962 = mul_sub(t45, t687, t39 * t691);
+        let t963 = mul_sub(t39, t689, t42 * t687);
         // leg 2: moment about the platform origin of the leg's inertia at its joint
-        let t946 = mul_sub(t54, t734, t57 * t732);
-        let t947 = mul_sub(t57, t730, t51 * t734);
-        let t948 = mul_sub(t51, t732, t54 * t730);
+        let t964 = mul_sub(t54, t734, t57 * t732);
+        let t965 = mul_sub(t57, t730, t51 * t734);
+        let t966 = mul_sub(t51, t732, t54 * t730);
         // leg 3: moment about the platform origin of the leg's inertia at its joint
-        let t949 = mul_sub(t66, t777, t69 * t775);
-        let t950 = mul_sub(t69, t773, t63 * t777);
-        let t951 = mul_sub(t63, t775, t66 * t773);
+        let t967 = mul_sub(t66, t777, t69 * t775);
+        let t968 = mul_sub(t69, t773, t63 * t777);
+        let t969 = mul_sub(t63, t775, t66 * t773);
         // leg 5: moment about the platform origin of the leg's inertia at its joint
-        let t952 = mul_sub(t90, t863, t93 * t861);
-        let t953 = mul_sub(t93, t859, t87 * t863);
-        let t954 = mul_sub(t87, t861, t90 * t859);
+        let t970 = mul_sub(t90, t863, t93 * t861);
+        let t971 = mul_sub(t93, t859, t87 * t863);
+        let t972 = mul_sub(t87, t861, t90 * t859);
         // inertia force less weight, without the actuators' own shares
-        let t955 = mul_add(t211, t452, mul_add(t197, t444, t204 * t448));
-        let t956 = mul_add(t211, t461, mul_add(t197, t455, t204 * t458));
-        let t957 = mul_add(t211, t467, mul_add(t197, t463, t204 * t465));
+        let t973 = mul_add(t211, t452, mul_add(t197, t444, t204 * t448));
+        let t974 = mul_add(t211, t461, mul_add(t197, t455, t204 * t458));
+        let t975 = mul_add(t211, t467, mul_add(t197, t463, t204 * t465));
         // first moments by platform coordinate of the payload's inertia force
-        let t958 = mul_add(t257, t452, mul_add(t229, t444, t243 * t448));
-        let t959 = mul_add(t286, t452, mul_add(t243, t444, t272 * t448));
-        let t960 = mul_add(t301, t452, mul_add(t257, t444, t286 * t448));
-        let t961 = mul_add(t257, t461, mul_add(t229, t455, t243 * t458));
-        let t962 = mul_add(t286, t461, mul_add(t243, t455, t272 * t458));
-        let t963 = mul_add(t301, t461, mul_add(t257, t455, t286 * t458));
-        let t964 = mul_add(t257, t467, mul_add(t229, t463, t243 * t465));
-        let t965 = mul_add(t286, t467, mul_add(t243, t463, t272 * t465));
-        let t966 = mul_add(t301, t467, mul_add(t257, t463, t286 * t465));
+        let t976 = mul_add(t257, t452, mul_add(t229, t444, t243 * t448));
+        let t977 = mul_add(t286, t452, mul_add(t243, t444, t272 * t448));
+        let t978 = mul_add(t301, t452, mul_add(t257, t444, t286 * t448));
+        let t979 = mul_add(t257, t461, mul_add(t229, t455, t243 * t458));
+        let t980 = mul_add(t286, t461, mul_add(t243, t455, t272 * t458));
+        let t981 = mul_add(t301, t461, mul_add(t257, t455, t286 * t458));
+        let t982 = mul_add(t257, t467, mul_add(t229, t463, t243 * t465));
+        let t983 = mul_add(t286, t467, mul_add(t243, t463, t272 * t465));
+        let t984 = mul_add(t301, t467, mul_add(t257, t463, t286 * t465));
         // moment of the legs' inertia at their joints about the platform origin
-        let t967 = neg_mul_add(t81, t818, mul_add(t78, t820, t952));
-        let t968 = t949 + (t943 + t946) + t967;
-        let t969 = neg_mul_add(t75, t820, mul_add(t81, t816, t953));
-        let t970 = t950 + (t944 + t947) + t969;
-        let t971 = neg_mul_add(t78, t816, mul_add(t75, t818, t954));
-        let t972 = t951 + (t945 + t948) + t971;
+        let t985 = neg_mul_add(t81, t818, mul_add(t78, t820, t970));
+        let t986 = t967 + (t961 + t964) + t985;
+        let t987 = neg_mul_add(t75, t820, mul_add(t81, t816, t971));
+        let t988 = t968 + (t962 + t965) + t987;
+        let t989 = neg_mul_add(t78, t816, mul_add(t75, t818, t972));
+        let t990 = t969 + (t963 + t966) + t989;
         (
-            t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t122, t124, t126, t128,
-            t130, t132, t134, t136, t138, t140, t142, t144, t146, t148, t150, t152, t154, t156,
-            t190, t197, t204, t211, t214, t229, t243, t257, t272, t286, t301, t313, t316, t427,
-            t429, t431, t627, t629, t633, t634, t635, t636, t640, t641, t642, t643, t644, t646,
-            t647, t648, t649, t662, t663, t664, t665, t685, t687, t689, t691, t692, t705, t706,
-            t707, t708, t728, t730, t732, t734, t735, t748, t749, t750, t751, t771, t773, t775,
-            t777, t778, t791, t792, t793, t794, t814, t816, t818, t820, t821, t834, t835, t836,
-            t837, t857, t859, t861, t863, t864, t877, t878, t879, t880, t900, t902, t904, t906,
-            t909, t912, t915, t918, t921, t924, t925, t926, t927, t928, t929, t930, t931, t932,
-            t933, t934, t935, t936, t937, t938, t939, t940, t941, t942, t955, t956, t957, t958,
-            t959, t960, t961, t962, t963, t964, t965, t966, t968, t970, t972,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t99, t102, t105, t121, t122, t123, t124,
+            t125, t126, t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138,
+            t139, t140, t141, t142, t143, t144, t145, t146, t147, t148, t149, t150, t151, t152,
+            t153, t154, t155, t156, t190, t197, t204, t211, t214, t229, t243, t257, t272, t286,
+            t301, t313, t316, t427, t429, t431, t627, t629, t633, t634, t635, t636, t640, t641,
+            t642, t643, t644, t646, t647, t648, t649, t662, t663, t664, t665, t685, t687, t689,
+            t691, t692, t705, t706, t707, t708, t728, t730, t732, t734, t735, t748, t749, t750,
+            t751, t771, t773, t775, t777, t778, t791, t792, t793, t794, t814, t816, t818, t820,
+            t821, t834, t835, t836, t837, t857, t859, t861, t863, t864, t877, t878, t879, t880,
+            t900, t902, t904, t906, t909, t912, t915, t918, t921, t924, t925, t926, t927, t928,
+            t929, t930, t931, t932, t933, t934, t935, t936, t937, t938, t939, t940, t941, t942,
+            t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953, t954, t955, t956,
+            t957, t958, t959, t960, t973, t974, t975, t976, t977, t978, t979, t980, t981, t982,
+            t983, t984, t986, t988, t990,
         )
     };
     {
         // inertia less external wrench that the actuators must balance
-        let t973 = mul_add(t211, t635, mul_add(t197, t633, t204 * t634));
-        let t974 = t773 + (t730 + (t687 + (t955 + mul_sub(t190, t427, t973))));
-        let t975 = base_rotation[1][0] * external_wrench[1];
-        let t976 = mul_add(base_rotation[0][0], external_wrench[0], t975);
-        let t977 = mul_add(base_rotation[2][0], external_wrench[2], t976);
-        let t978 = t902 + (t859 + (t816 + t974)) - t977;
-        let t979 = mul_add(t211, t642, mul_add(t197, t640, t204 * t641));
-        let t980 = t775 + (t732 + (t689 + (t956 + mul_sub(t190, t429, t979))));
-        let t981 = base_rotation[1][1] * external_wrench[1];
-        let t982 = mul_add(base_rotation[0][1], external_wrench[0], t981);
-        let t983 = mul_add(base_rotation[2][1], external_wrench[2], t982);
-        let t984 = t904 + (t861 + (t818 + t980)) - t983;
-        let t985 = mul_add(t211, t648, mul_add(t197, t646, t204 * t647));
-        let t986 = t777 + (t734 + (t691 + (t957 + mul_sub(t190, t431, t985))));
-        let t987 = base_rotation[1][2] * external_wrench[1];
-        let t988 = mul_add(base_rotation[0][2], external_wrench[0], t987);
-        let t989 = mul_add(base_rotation[2][2], external_wrench[2], t988);
-        let t990 = t906 + (t863 + (t820 + t986)) - t989;
-        let t991 = mul_add(t286, t648, mul_add(t243, t646, t272 * t647));
-        let t992 = mul_add(t204, t431, t991) - t965;
-        let t993 = neg_mul_add(parameters.payload_com[1], t989, t992);
-        let t994 = mul_add(t286, t642, mul_add(t243, t640, t272 * t641));
-        let t995 = mul_add(t204, t429, t994) - t962;
-        let t996 = neg_mul_add(parameters.payload_com[1], t983, t995);
-        let t997 = mul_sub(t15, t993, t24 * t996);
-        let t998 = mul_add(t257, t642, mul_add(t229, t640, t243 * t641));
-        let t999 = mul_add(t197, t429, t998) - t961;
-        let t1000 = neg_mul_add(parameters.payload_com[0], t983, t999);
-        let t1001 = mul_add(t257, t648, mul_add(t229, t646, t243 * t647));
-        let t1002 = mul_add(t197, t431, t1001) - t964;
-        let t1003 = neg_mul_add(parameters.payload_com[0], t989, t1002);
-        let t1004 = mul_add(t301, t648, mul_add(t257, t646, t286 * t647));
-        let t1005 = mul_add(t211, t431, t1004) - t966;
-        let t1006 = neg_mul_add(parameters.payload_com[2], t989, t1005);
-        let t1007 = mul_add(t301, t642, mul_add(t257, t640, t286 * t641));
-        let t1008 = mul_add(t211, t429, t1007) - t963;
-        let t1009 = neg_mul_add(parameters.payload_com[2], t983, t1008);
-        let t1010 = mul_add(t12, t1003, mul_sub(t18, t1006, t27 * t1009));
-        let t1011 = mul_add(t102, t906, t997 + neg_mul_add(t21, t1000, t1010));
-        let t1012 = t968 + neg_mul_add(t105, t904, t1011);
-        let t1013 = neg_mul_add(t214, mul_sub(t316, t629, t644), t1012);
-        let t1014 = base_rotation[1][0] * external_wrench[4];
-        let t1015 = mul_add(base_rotation[0][0], external_wrench[3], t1014);
-        let t1016 = t1013 - mul_add(base_rotation[2][0], external_wrench[5], t1015);
-        let t1017 = mul_add(t286, t635, mul_add(t243, t633, t272 * t634));
-        let t1018 = mul_add(t204, t427, t1017) - t959;
-        let t1019 = neg_mul_add(parameters.payload_com[1], t977, t1018);
-        let t1020 = mul_sub(t24, t1019, t6 * t993);
-        let t1021 = mul_add(t257, t635, mul_add(t229, t633, t243 * t634));
-        let t1022 = mul_add(t197, t427, t1021) - t958;
-        let t1023 = neg_mul_add(parameters.payload_com[0], t977, t1022);
-        let t1024 = mul_add(t301, t635, mul_add(t257, t633, t286 * t634));
-        let t1025 = mul_add(t211, t427, t1024) - t960;
-        let t1026 = neg_mul_add(parameters.payload_com[2], t977, t1025);
-        let t1027 = mul_add(t21, t1023, mul_sub(t27, t1026, t9 * t1006));
-        let t1028 = mul_add(t105, t902, t1020 + neg_mul_add(t3, t1003, t1027));
-        let t1029 = base_rotation[1][1] * external_wrench[4];
-        let t1030 = mul_add(base_rotation[0][1], external_wrench[3], t1029);
-        let t1031 = mul_add(base_rotation[2][1], external_wrench[5], t1030);
-        let t1032 = mul_sub(t214, mul_sub(t313, t629, t643), t1031);
-        let t1033 = t970 + neg_mul_add(t99, t906, t1028) + t1032;
-        let t1034 = mul_sub(t6, t996, t15 * t1019);
-        let t1035 = mul_add(t3, t1000, mul_sub(t9, t1009, t18 * t1026));
-        let t1036 = mul_add(t99, t904, t1034 + neg_mul_add(t12, t1023, t1035));
-        let t1037 = t972 + neg_mul_add(t102, t902, t1036);
-        let t1038 = neg_mul_add(t214, mul_sub(t313, t627, t636), t1037);
-        let t1039 = base_rotation[1][2] * external_wrench[4];
-        let t1040 = mul_add(base_rotation[0][2], external_wrench[3], t1039);
-        let t1041 = t1038 - mul_add(base_rotation[2][2], external_wrench[5], t1040);
+        let t991 = mul_add(t211, t635, mul_add(t197, t633, t204 * t634));
+        let t992 = t773 + (t730 + (t687 + (t973 + mul_sub(t190, t427, t991))));
+        let t993 = base_rotation[1][0] * external_wrench[1];
+        let t994 = mul_add(base_rotation[0][0], external_wrench[0], t993);
+        let t995 = mul_add(base_rotation[2][0], external_wrench[2], t994);
+        let t996 = t902 + (t859 + (t816 + t992)) - t995;
+        let t997 = mul_add(t211, t642, mul_add(t197, t640, t204 * t641));
+        let t998 = t775 + (t732 + (t689 + (t974 + mul_sub(t190, t429, t997))));
+        let t999 = base_rotation[1][1] * external_wrench[1];
+        let t1000 = mul_add(base_rotation[0][1], external_wrench[0], t999);
+        let t1001 = mul_add(base_rotation[2][1], external_wrench[2], t1000);
+        let t1002 = t904 + (t861 + (t818 + t998)) - t1001;
+        let t1003 = mul_add(t211, t648, mul_add(t197, t646, t204 * t647));
+        let t1004 = t777 + (t734 + (t691 + (t975 + mul_sub(t190, t431, t1003))));
+        let t1005 = base_rotation[1][2] * external_wrench[1];
+        let t1006 = mul_add(base_rotation[0][2], external_wrench[0], t1005);
+        let t1007 = mul_add(base_rotation[2][2], external_wrench[2], t1006);
+        let t1008 = t906 + (t863 + (t820 + t1004)) - t1007;
+        let t1009 = mul_add(t286, t648, mul_add(t243, t646, t272 * t647));
+        let t1010 = mul_add(t204, t431, t1009) - t983;
+        let t1011 = neg_mul_add(parameters.payload_com[1], t1007, t1010);
+        let t1012 = mul_add(t286, t642, mul_add(t243, t640, t272 * t641));
+        let t1013 = mul_add(t204, t429, t1012) - t980;
+        let t1014 = neg_mul_add(parameters.payload_com[1], t1001, t1013);
+        let t1015 = mul_sub(t15, t1011, t24 * t1014);
+        let t1016 = mul_add(t257, t642, mul_add(t229, t640, t243 * t641));
+        let t1017 = mul_add(t197, t429, t1016) - t979;
+        let t1018 = neg_mul_add(parameters.payload_com[0], t1001, t1017);
+        let t1019 = mul_add(t257, t648, mul_add(t229, t646, t243 * t647));
+        let t1020 = mul_add(t197, t431, t1019) - t982;
+        let t1021 = neg_mul_add(parameters.payload_com[0], t1007, t1020);
+        let t1022 = mul_add(t301, t648, mul_add(t257, t646, t286 * t647));
+        let t1023 = mul_add(t211, t431, t1022) - t984;
+        let t1024 = neg_mul_add(parameters.payload_com[2], t1007, t1023);
+        let t1025 = mul_add(t301, t642, mul_add(t257, t640, t286 * t641));
+        let t1026 = mul_add(t211, t429, t1025) - t981;
+        let t1027 = neg_mul_add(parameters.payload_com[2], t1001, t1026);
+        let t1028 = mul_add(t12, t1021, mul_sub(t18, t1024, t27 * t1027));
+        let t1029 = mul_add(t102, t906, t1015 + neg_mul_add(t21, t1018, t1028));
+        let t1030 = t986 + neg_mul_add(t105, t904, t1029);
+        let t1031 = neg_mul_add(t214, mul_sub(t316, t629, t644), t1030);
+        let t1032 = base_rotation[1][0] * external_wrench[4];
+        let t1033 = mul_add(base_rotation[0][0], external_wrench[3], t1032);
+        let t1034 = t1031 - mul_add(base_rotation[2][0], external_wrench[5], t1033);
+        let t1035 = mul_add(t286, t635, mul_add(t243, t633, t272 * t634));
+        let t1036 = mul_add(t204, t427, t1035) - t977;
+        let t1037 = neg_mul_add(parameters.payload_com[1], t995, t1036);
+        let t1038 = mul_sub(t24, t1037, t6 * t1011);
+        let t1039 = mul_add(t257, t635, mul_add(t229, t633, t243 * t634));
+        let t1040 = mul_add(t197, t427, t1039) - t976;
+        let t1041 = neg_mul_add(parameters.payload_com[0], t995, t1040);
+        let t1042 = mul_add(t301, t635, mul_add(t257, t633, t286 * t634));
+        let t1043 = mul_add(t211, t427, t1042) - t978;
+        let t1044 = neg_mul_add(parameters.payload_com[2], t995, t1043);
+        let t1045 = mul_add(t21, t1041, mul_sub(t27, t1044, t9 * t1024));
+        let t1046 = mul_add(t105, t902, t1038 + neg_mul_add(t3, t1021, t1045));
+        let t1047 = base_rotation[1][1] * external_wrench[4];
+        let t1048 = mul_add(base_rotation[0][1], external_wrench[3], t1047);
+        let t1049 = mul_add(base_rotation[2][1], external_wrench[5], t1048);
+        let t1050 = mul_sub(t214, mul_sub(t313, t629, t643), t1049);
+        let t1051 = t988 + neg_mul_add(t99, t906, t1046) + t1050;
+        let t1052 = mul_sub(t6, t1014, t15 * t1037);
+        let t1053 = mul_add(t3, t1018, mul_sub(t9, t1027, t18 * t1044));
+        let t1054 = mul_add(t99, t904, t1052 + neg_mul_add(t12, t1041, t1053));
+        let t1055 = t990 + neg_mul_add(t102, t902, t1054);
+        let t1056 = neg_mul_add(t214, mul_sub(t313, t627, t636), t1055);
+        let t1057 = base_rotation[1][2] * external_wrench[4];
+        let t1058 = mul_add(base_rotation[0][2], external_wrench[3], t1057);
+        let t1059 = t1056 - mul_add(base_rotation[2][2], external_wrench[5], t1058);
         // force along the actuator that balances the remaining wrench
-        let axial_reaction = solve_general(
+        let t1060 = mul_sub(t123, t137, t125 * t135);
+        let t1061 = mul_sub(t135, t149, t137 * t147);
+        let t1062 = mul_sub(t125, t147, t123 * t149);
+        let t1063 = mul_add(t145, t1060, mul_add(t121, t1061, t133 * t1062));
+        let t1064 = c(1.0) / t1063;
+        let t1065 = mul_sub(t133, t147, t135 * t145);
+        let t1066 = mul_sub(t137, t145, t133 * t149);
+        let t1067 = mul_add(t155, t1065, mul_add(t151, t1061, t153 * t1066));
+        let t1068 = mul_sub(t121, t135, t123 * t133);
+        let t1069 = mul_sub(t125, t133, t121 * t137);
+        let t1070 = mul_add(t155, t1068, mul_add(t151, t1060, t153 * t1069));
+        let t1071 = mul_sub(t123, t145, t121 * t147);
+        let t1072 = mul_sub(t121, t149, t125 * t145);
+        let t1073 = mul_add(t155, t1071, mul_add(t151, t1062, t153 * t1072));
+        let t1074 = neg_mul_add(t937, t1073, mul_sub(t955, t1063, t925 * t1067));
+        let t1075 = neg_mul_add(t949, t1070, t1074);
+        let t1076 = mul_add(t131, t1068, mul_add(t127, t1060, t129 * t1069));
+        let t1077 = mul_add(t131, t1071, mul_add(t127, t1062, t129 * t1072));
+        let t1078 = mul_add(t131, t1065, mul_add(t127, t1061, t129 * t1066));
+        let t1079 = neg_mul_add(t939, t1077, mul_sub(t933, t1063, t927 * t1078));
+        let t1080 = neg_mul_add(t951, t1076, t1079);
+        let t1081 = mul_add(t143, t1068, mul_add(t139, t1060, t141 * t1069));
+        let t1082 = mul_add(t143, t1071, mul_add(t139, t1062, t141 * t1072));
+        let t1083 = mul_add(t143, t1065, mul_add(t139, t1061, t141 * t1066));
+        let t1084 = neg_mul_add(t941, t1082, mul_sub(t947, t1063, t929 * t1083));
+        let t1085 = neg_mul_add(t953, t1081, t1084);
+        let t1086 = neg_mul_add(t939, t1082, mul_sub(t945, t1063, t927 * t1083));
+        let t1087 = neg_mul_add(t951, t1081, t1086);
+        let t1088 = neg_mul_add(t941, t1077, mul_sub(t935, t1063, t929 * t1078));
+        let t1089 = neg_mul_add(t953, t1076, t1088);
+        let t1090 = mul_sub(t1080, t1085, t1087 * t1089);
+        let t1091 = neg_mul_add(t937, t1077, mul_sub(t931, t1063, t925 * t1078));
+        let t1092 = neg_mul_add(t949, t1076, t1091);
+        let t1093 = neg_mul_add(t941, t1073, mul_sub(t959, t1063, t929 * t1067));
+        let t1094 = neg_mul_add(t953, t1070, t1093);
+        let t1095 = neg_mul_add(t939, t1073, mul_sub(t957, t1063, t927 * t1067));
+        let t1096 = neg_mul_add(t951, t1070, t1095);
+        let t1097 = mul_sub(t1087, t1094, t1096 * t1085);
+        let t1098 = neg_mul_add(t937, t1082, mul_sub(t943, t1063, t925 * t1083));
+        let t1099 = neg_mul_add(t949, t1081, t1098);
+        let t1100 = mul_sub(t1096, t1089, t1080 * t1094);
+        let t1101 = c(1.0) / mul_add(t1075, t1090, mul_add(t1092, t1097, t1099 * t1100));
+        let t1102 = mul_add(t1008, t1068, mul_add(t996, t1060, t1002 * t1069));
+        let t1103 = mul_add(t1008, t1071, mul_add(t996, t1062, t1002 * t1072));
+        let t1104 = mul_add(t1008, t1065, mul_add(t996, t1061, t1002 * t1066));
+        let t1105 = neg_mul_add(t941, t1103, mul_sub(t1059, t1063, t929 * t1104));
+        let t1106 = neg_mul_add(t953, t1102, t1105);
+        let t1107 = neg_mul_add(t937, t1103, mul_sub(t1034, t1063, t925 * t1104));
+        let t1108 = neg_mul_add(t949, t1102, t1107);
+        let t1109 = neg_mul_add(t939, t1103, mul_sub(t1051, t1063, t927 * t1104));
+        let t1110 = neg_mul_add(t951, t1102, t1109);
+        let t1111 = mul_add(t1108, t1090, t1110 * mul_sub(t1099, t1089, t1092 * t1085));
+        let t1112 = t1101 * mul_add(t1106, mul_sub(t1092, t1087, t1099 * t1080), t1111);
+        let t1113 = mul_add(t1108, t1100, t1110 * mul_sub(t1092, t1094, t1075 * t1089));
+        let t1114 = t1101 * mul_add(t1106, mul_sub(t1075, t1080, t1092 * t1096), t1113);
+        let t1115 = mul_add(t1108, t1097, t1110 * mul_sub(t1075, t1085, t1099 * t1094));
+        let t1116 = t1101 * mul_add(t1106, mul_sub(t1099, t1096, t1075 * t1087), t1115);
+        let t1117 = neg_mul_add(t1083, t1114, neg_mul_add(t1078, t1116, t1104));
+        let t1118 = t1064 * mul_sub(t1067, t1112, t1117);
+        let t1119 = -t1116;
+        let t1120 = neg_mul_add(t1082, t1114, neg_mul_add(t1077, t1116, t1103));
+        let t1121 = t1064 * mul_sub(t1073, t1112, t1120);
+        let t1122 = -t1114;
+        let t1123 = neg_mul_add(t1081, t1114, neg_mul_add(t1076, t1116, t1102));
+        let t1124 = t1064 * mul_sub(t1070, t1112, t1123);
+        let t1125 = -t1112;
+        let axial_reaction = solve_after_attempt(
+            &[t1118, t1119, t1121, t1122, t1124, t1125],
             &[
                 [t122, t128, t134, t140, t146, t152],
                 [t124, t130, t136, t142, t148, t154],
                 [t126, t132, t138, t144, t150, t156],
-                [t925, t928, t931, t934, t937, t940],
-                [t926, t929, t932, t935, t938, t941],
-                [t927, t930, t933, t936, t939, t942],
+                [t926, t932, t938, t944, t950, t956],
+                [t928, t934, t940, t946, t952, t958],
+                [t930, t936, t942, t948, t954, t960],
             ],
-            &[t978, t984, t990, t1016, t1033, t1041],
+            &[t996, t1002, t1008, t1034, t1051, t1059],
         );
         // leg 1: actuator forces F at reference speeds
-        let t1042 = neg_mul_add(t663, t664, mul_add(t649, t662, t909));
-        passive_inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t665, t685, t1042);
+        let t1126 = neg_mul_add(t663, t664, mul_add(t649, t662, t909));
+        passive_inverse_dynamics[0] = axial_reaction[0] - neg_mul_add(t665, t685, t1126);
         // leg 2: actuator forces F at reference speeds
-        let t1043 = neg_mul_add(t706, t707, mul_add(t692, t705, t912));
-        passive_inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t708, t728, t1043);
+        let t1127 = neg_mul_add(t706, t707, mul_add(t692, t705, t912));
+        passive_inverse_dynamics[1] = axial_reaction[1] - neg_mul_add(t708, t728, t1127);
         // leg 3: actuator forces F at reference speeds
-        let t1044 = neg_mul_add(t749, t750, mul_add(t735, t748, t915));
-        passive_inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t751, t771, t1044);
+        let t1128 = neg_mul_add(t749, t750, mul_add(t735, t748, t915));
+        passive_inverse_dynamics[2] = axial_reaction[2] - neg_mul_add(t751, t771, t1128);
         // leg 4: actuator forces F at reference speeds
-        let t1045 = neg_mul_add(t792, t793, mul_add(t778, t791, t918));
-        passive_inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t794, t814, t1045);
+        let t1129 = neg_mul_add(t792, t793, mul_add(t778, t791, t918));
+        passive_inverse_dynamics[3] = axial_reaction[3] - neg_mul_add(t794, t814, t1129);
         // leg 5: actuator forces F at reference speeds
-        let t1046 = neg_mul_add(t835, t836, mul_add(t821, t834, t921));
-        passive_inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t837, t857, t1046);
+        let t1130 = neg_mul_add(t835, t836, mul_add(t821, t834, t921));
+        passive_inverse_dynamics[4] = axial_reaction[4] - neg_mul_add(t837, t857, t1130);
         // leg 6: actuator forces F at reference speeds
-        let t1047 = neg_mul_add(t878, t879, mul_add(t864, t877, t924));
-        passive_inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t880, t900, t1047);
+        let t1131 = neg_mul_add(t878, t879, mul_add(t864, t877, t924));
+        passive_inverse_dynamics[5] = axial_reaction[5] - neg_mul_add(t880, t900, t1131);
     }
 }
 
@@ -27576,16 +29241,16 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -27595,69 +29260,69 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
     let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
     let t27 = t9 * P::splat(P::lane(t14, 2));
     let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t29 = t18 * P::splat(P::lane(t14, 0));
     let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
     let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
     let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
+    // legs 2, 4, 6: platform joint from the platform origin
     let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
     let t35 = t18 * P::splat(P::lane(t14, 2));
     let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
     // constant and copied elements
     let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
     let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
     let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
     // constant and copied elements
     let t43 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
     let t44 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
+    // legs 2, 4, 6: platform joint from the platform origin
     let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
-    // legs 1, 2, 3: platform joint from the base point
+    // legs 1, 3, 5: platform joint from the base point
     let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
     // constant and copied elements
     let t48 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
     let t49 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
-    // legs 4, 5, 6: platform joint from the base point
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 2, 4, 6: platform joint from the base point
     let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
     // angular velocity of the base
     let t51 = t1 * P::splat(base_velocity[4]);
     // angular velocity of the platform
     let t52 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: platform joint from the base point
+    // legs 2, 4, 6: platform joint from the base point
     let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
     // angular velocity of the base
     let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
@@ -27669,7 +29334,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t57 = mul_add(t2, P::splat(platform_velocity[3]), t52);
     // platform origin seen from the base
     let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
-    // legs 1, 2, 3: actuator length d
+    // legs 1, 3, 5: actuator length d
     let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
     // angular velocity of the base
     let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
@@ -27679,7 +29344,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t62 = mul_add(t2, P::splat(platform_acceleration[3]), t56);
     // angular velocity of the platform
     let t63 = mul_add(t5, P::splat(platform_velocity[5]), t57);
-    // legs 4, 5, 6: actuator length d
+    // legs 2, 4, 6: actuator length d
     let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
     // platform origin seen from the base
     let t65 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
@@ -27713,11 +29378,11 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t80 = mul_sub(t63, t67, t14 * t73);
     // rotation of the platform seen from the base
     let t81 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
-    // legs 1, 2, 3: reciprocal of the actuator length
+    // legs 1, 3, 5: reciprocal of the actuator length
     let t82 = w(1.0) / t59;
     // angular acceleration of the base
     let t83 = mul_add(t5, P::splat(base_acceleration[5]), t74);
-    // legs 4, 5, 6: reciprocal of the actuator length
+    // legs 2, 4, 6: reciprocal of the actuator length
     let t84 = w(1.0) / t64;
     // rotation of the platform seen from the base
     let t85 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
@@ -27727,7 +29392,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t87 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t88 = mul_sub(t63, t81, t17 * t73);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t89 = neg_mul_add(t32, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
     // angular velocity of the base
     let t90 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
@@ -27744,7 +29409,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t97 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
     // acceleration per platform coordinate of points of the platform
     let t98 = mul_add(t73, t80, mul_sub(t78, t79, t67 * t77));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t99 = neg_mul_add(t37, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
     let t100 = mul_add(t37, P::splat(P::lane(t70, 0)), t89);
     // angular velocity of the base
@@ -27755,7 +29420,7 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t103 = mul_add(t73, t86, mul_sub(t78, t85, t76 * t77));
     let t104 = P::triple([P::lane(t80, 2), P::lane(t80, 0), P::lane(t80, 1)]);
     let t105 = mul_add(t73, t88, mul_sub(t78, t87, t77 * t81));
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t106 = t42 * t82;
     // acceleration of the base origin less gravity
     let t107 = base_acceleration[2] - parameters.gravity[2];
@@ -27765,18 +29430,18 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t109 = parameters.gravity[2] - platform_acceleration[2];
     // acceleration per platform coordinate of points of the platform
     let t110 = neg_mul_add(t102, t104, t98);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t111 = mul_add(t33, P::splat(P::lane(t70, 2)), t99);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t112 = neg_mul_add(t39, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t113 = neg_mul_add(t33, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
     // angular acceleration of the base
     let t114 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
     // acceleration per platform coordinate of points of the platform
     let t115 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
     let t116 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t117 = t41 * t82;
     // acceleration of the base origin less gravity
     let t118 = mul_add(t5, P::splat(t107), mul_add(t2, P::splat(t92), t93));
@@ -27793,118 +29458,118 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t124 = neg_mul_add(t102, t116, t105);
     // acceleration per base coordinate of points that move with the base
     let t125 = t120 + t121;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t126 = neg_mul_add(t45, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
     let t127 = mul_add(t45, P::splat(P::lane(t70, 0)), t112);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
     let t128 = mul_add(t32, P::splat(P::lane(t70, 1)), t113);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t129 = mul_add(t41, P::splat(P::lane(t60, 2)), t100);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t130 = t46 * t84;
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
     let t131 = t47 * t82;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t132 = t9 * P::splat(P::lane(t110, 1));
     let t133 = t21 * P::splat(P::lane(t108, 1));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t134 = mul_add(t36, P::splat(P::lane(t70, 2)), t126);
     let t135 = neg_mul_add(t36, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t136 = mul_add(t47, P::splat(P::lane(t60, 1)), t111);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t137 = t50 * t84;
-    // legs 1, 2, 3: actuator velocity d'
+    // legs 1, 3, 5: actuator velocity d'
     let t138 = mul_add(t128, t131, mul_add(t111, t117, t100 * t106));
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t139 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t129);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t140 = t9 * P::splat(P::lane(t110, 0));
     let t141 = t21 * P::splat(P::lane(t119, 0));
     let t142 = neg_mul_add(t13, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
     let t143 = mul_add(t44, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
     // constant and copied elements
     let t144 =
-        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
+        P::triple([parameters.upper_mass[1], parameters.upper_mass[3], parameters.upper_mass[5]]);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
     let t145 = mul_add(t39, P::splat(P::lane(t70, 1)), t135);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t146 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t136);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t147 = mul_add(t50, P::splat(P::lane(t60, 2)), t127);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t148 = mul_add(t42, P::splat(P::lane(t60, 0)), t128);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
     let t149 = t53 * t84;
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t150 = neg_mul_add(t13, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
     let t151 = mul_add(t44, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
     let t152 = t142 - mul_add(t12, P::splat(P::lane(t123, 1)), t132);
     let t153 = mul_sub(t38, P::splat(P::lane(t125, 1)), t133) + t143;
     let t154 = t9 * P::splat(P::lane(t110, 2));
     let t155 = t21 * P::splat(P::lane(t125, 2));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t156 = t18 * P::splat(P::lane(t110, 1));
     let t157 = t43 * P::splat(P::lane(t108, 1));
     // constant and copied elements
     let t158 =
-        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[2], parameters.upper_mass[4]]);
+    // legs 2, 4, 6: inertial rate of that gradient
     let t159 = mul_add(t53, P::splat(P::lane(t60, 1)), t134);
     // second moment of payload and platform-side leg ends
     let t160 = mul_add(t12 * t12, t158, t19 * t19 * t144);
     let t161 = mul_add(t9 * t12, t158, t18 * t19 * t144);
     let t162 = mul_add(t12 * t13, t158, t19 * t20 * t144);
-    // legs 4, 5, 6: actuator velocity d'
+    // legs 2, 4, 6: actuator velocity d'
     let t163 = mul_add(t145, t149, mul_add(t134, t137, t127 * t130));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t164 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t147);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t165 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t148);
     let t166 = t82 * neg_mul_add(t106, t138, t139);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t167 = t150 - mul_add(t12, P::splat(P::lane(t123, 0)), t140);
     let t168 = t151 - mul_sub(t38, P::splat(P::lane(t108, 0)), t141);
     let t169 = t152 + t153;
     let t170 = neg_mul_add(t13, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
     let t171 = neg_mul_add(t44, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t172 = t18 * P::splat(P::lane(t110, 0));
     let t173 = t43 * P::splat(P::lane(t119, 0));
     let t174 = neg_mul_add(t20, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
     let t175 = mul_add(t49, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t176 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t159);
     let t177 = mul_add(t46, P::splat(P::lane(t60, 0)), t145);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t178 = t82 * neg_mul_add(t117, t138, t146);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t179 = t167 + t168;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t180 = neg_mul_add(t20, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
     let t181 = mul_add(t49, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t182 = t170 - mul_add(t12, P::splat(P::lane(t123, 2)), t154);
     let t183 = mul_add(t38, P::splat(P::lane(t119, 2)), t155) + t171;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t184 = t174 - mul_add(t19, P::splat(P::lane(t123, 1)), t156);
     let t185 = mul_sub(t48, P::splat(P::lane(t125, 1)), t157) + t175;
     let t186 = t18 * P::splat(P::lane(t110, 2));
     let t187 = t43 * P::splat(P::lane(t125, 2));
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t188 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t177);
     // second moment of payload and platform-side leg ends
     let t189 = mul_add(t158, t9 * t9, t144 * (t18 * t18));
     let t190 = mul_add(t158, t9 * t13, t144 * (t18 * t20));
     let t191 = P::triple([P::lane(t160, 0), P::lane(t161, 0), P::lane(t162, 0)]);
     let t192 = P::triple([P::lane(t160, 1), P::lane(t161, 1), P::lane(t162, 1)]);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t193 = t84 * neg_mul_add(t130, t163, t164);
-    // legs 1, 2, 3: inertial rate of that gradient
+    // legs 1, 3, 5: inertial rate of that gradient
     let t194 = t82 * neg_mul_add(t131, t138, t165);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t195 = t182 + t183;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t196 = t180 - mul_add(t19, P::splat(P::lane(t123, 0)), t172);
     let t197 = t181 - mul_sub(t48, P::splat(P::lane(t108, 0)), t173);
     let t198 = t184 + t185;
@@ -27912,81 +29577,81 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t200 = neg_mul_add(t49, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
     // second moment of payload and platform-side leg ends
     let t201 = P::triple([P::lane(t160, 2), P::lane(t161, 2), P::lane(t162, 2)]);
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t202 = t84 * neg_mul_add(t137, t163, t176);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t203 = mul_add(t131, t195, mul_add(t117, t179, t106 * t169));
     let t204 = mul_add(t194, t194, mul_add(t178, t178, t166 * t166));
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t205 = t196 + t197;
     // second moment of payload and platform-side leg ends
     let t206 = t191 + t192 + t201;
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t207 = t199 - mul_add(t19, P::splat(P::lane(t123, 2)), t186);
     let t208 = mul_add(t48, P::splat(P::lane(t119, 2)), t187) + t200;
-    // legs 4, 5, 6: inertial rate of that gradient
+    // legs 2, 4, 6: inertial rate of that gradient
     let t209 = t84 * neg_mul_add(t149, t163, t188);
-    // legs 1, 2, 3: actuator acceleration d''
+    // legs 1, 3, 5: actuator acceleration d''
     let t210 = neg_mul_add(t59, t204, t203);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t211 = t207 + t208;
     // second moment of payload and platform-side leg ends
     let t212 = mul_add(t158, t13 * t13, t144 * (t20 * t20));
     let t213 = P::lane(t190, 1) + P::lane(t190, 0);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t214 = mul_add(t209, t209, mul_add(t202, t202, t193 * t193));
     // second moment of payload and platform-side leg ends
     let t215 = P::triple([P::lane(t206, 1), P::lane(t189, 2), P::lane(t190, 2)]);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t216 = mul_add(t149, t211, mul_add(t137, t205, t130 * t198));
     // second moment of payload and platform-side leg ends
     let t217 = P::triple([c(0.0), P::lane(t189, 1) + P::lane(t189, 0), t213]);
     let t218 = t215 + t217;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t219 = t138 * w(2.0);
-    // legs 4, 5, 6: actuator acceleration d''
+    // legs 2, 4, 6: actuator acceleration d''
     let t220 = neg_mul_add(t64, t214, t216);
     // constant and copied elements
     let t221 =
-        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[2], parameters.lower_mass[4]]);
     let t222 =
-        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
-    // legs 1, 2, 3: first moment of the lower part about the base joint
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[2], parameters.lower_com_distance[4]]);
+    // legs 1, 3, 5: first moment of the lower part about the base joint
     let t223 = t221 * t222;
     // constant and copied elements
     let t224 =
-        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[2], parameters.upper_com_distance[4]]);
     let t225 =
-        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
-    // legs 1, 2, 3: first moment of the upper part about the platform joint
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[2], parameters.lower_inertia[4]]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
     let t226 = t158 * t224;
     // second moment of payload and platform-side leg ends
     let t227 = P::triple([P::lane(t206, 2), P::lane(t218, 2), P::lane(t212, 2)]);
     let t228 = P::triple([c(0.0), c(0.0), P::lane(t212, 1) + P::lane(t212, 0)]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t229 = t82 * mul_add(t178, t219, neg_mul_add(t117, t210, t179));
     let t230 = t82 * mul_add(t166, t219, neg_mul_add(t106, t210, t169));
     let t231 = t82 * mul_add(t194, t219, neg_mul_add(t131, t210, t195));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t232 = t163 * w(2.0);
     // constant and copied elements
     let t233 =
-        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
+        P::triple([parameters.lower_mass[1], parameters.lower_mass[3], parameters.lower_mass[5]]);
     let t234 =
-        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+        P::triple([parameters.lower_com_distance[1], parameters.lower_com_distance[3], parameters.lower_com_distance[5]]);
     let t235 =
-        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[2], parameters.upper_inertia[4]]);
     // second moment of payload and platform-side leg ends
     let t236 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t237 = t82 * t223;
-    // legs 4, 5, 6: first moment of the lower part about the base joint
+    // legs 2, 4, 6: first moment of the lower part about the base joint
     let t238 = t233 * t234;
     // constant and copied elements
     let t239 =
-        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
+        P::triple([parameters.upper_com_distance[1], parameters.upper_com_distance[3], parameters.upper_com_distance[5]]);
     let t240 =
-        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+        P::triple([parameters.lower_inertia[1], parameters.lower_inertia[3], parameters.lower_inertia[5]]);
     // second moment of payload and platform-side leg ends
     let t241 = t236 + parameters.payload_inertia[2][2];
     // constant and copied elements
@@ -27994,13 +29659,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
     let t243 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
     let t244 = t144 * t239;
-    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
     let t245 = mul_add(t224, t226, mul_add(t222, t223, t225) + t235);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t246 = t82 * t226;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t247 = t84 * mul_add(t202, t232, neg_mul_add(t137, t220, t205));
     let t248 = t84 * mul_add(t193, t232, neg_mul_add(t130, t220, t198));
     let t249 = t84 * mul_add(t209, t232, neg_mul_add(t149, t220, t211));
@@ -28014,14 +29679,14 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t254 = P::triple([P::lane(t206, 1), P::lane(t218, 2), P::lane(t206, 2)]);
     // constant and copied elements
     let t255 =
-        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+        P::triple([parameters.upper_inertia[1], parameters.upper_inertia[3], parameters.upper_inertia[5]]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t256 = t84 * t238;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t257 = mul_add(t167, t246, mul_add(t168, t237, t226 * t229));
     let t258 = mul_add(t152, t246, mul_add(t153, t237, t226 * t230));
     let t259 = mul_add(t182, t246, mul_add(t183, t237, t226 * t231));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
+    // legs 1, 3, 5: leg inertia less weight along the actuator
     let t260 = t82 * t245;
     // constant and copied elements
     let t261 =
@@ -28033,13 +29698,13 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t264 =
         P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
     let t265 = mul_add(t239, t244, mul_add(t234, t238, t240) + t255);
     // second moment of payload and platform-side leg ends
     let t266 = mul_add(t242 * t243, P::splat(parameters.payload_mass), t254) - t264;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t267 = t84 * t244;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
     let t268 = neg_mul_add(t229, t260, t257);
     let t269 = neg_mul_add(t230, t260, t258);
     let t270 = neg_mul_add(t231, t260, t259);
@@ -28048,21 +29713,21 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // first moment of payload and platform-side leg ends
     let t272 = P::triple([P::lane(t251, 0), P::lane(t252, 0), P::lane(t253, 0)]);
     let t273 = P::triple([P::lane(t251, 1), P::lane(t252, 1), P::lane(t253, 1)]);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t274 = mul_add(t196, t267, mul_add(t197, t256, t244 * t247));
     let t275 = mul_add(t184, t267, mul_add(t185, t256, t244 * t248));
     let t276 = mul_add(t207, t267, mul_add(t208, t256, t244 * t249));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
+    // legs 2, 4, 6: leg inertia less weight along the actuator
     let t277 = t84 * t265;
     // first moments by platform coordinate of the payload's inertia force
     let t278 = t110 * P::splat(P::lane(t266, 0));
     // first moment of payload and platform-side leg ends
     let t279 = P::triple([P::lane(t251, 2), P::lane(t252, 2), P::lane(t253, 2)]);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
     let t280 = neg_mul_add(t247, t277, t274);
     let t281 = neg_mul_add(t248, t277, t275);
     let t282 = neg_mul_add(t249, t277, t276);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
     let t283 = mul_sub(t33, t270, t37 * t269);
     let t284 = mul_sub(t37, t268, t32 * t270);
     let t285 = mul_sub(t32, t269, t33 * t268);
@@ -28072,174 +29737,263 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     let t287 = t1 * P::splat(external_wrench[1]);
     // first moment of payload and platform-side leg ends
     let t288 = mul_add(P::splat(parameters.payload_mass), t261, t272 + t273 + t279);
-    // first moments by platform coordinate of the payload's inertia force
-    let t289 = mul_add(t124, P::splat(P::lane(t266, 2)), t286);
-    // inertia less external wrench that the actuators must balance
-    let t290 = mul_add(t2, P::splat(external_wrench[0]), t287);
-    // first moments by platform coordinate of the payload's inertia force
-    let t291 = t110 * P::splat(P::lane(t271, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t292 = neg_mul_add(t45, t281, mul_add(t36, t282, t283));
-    let t293 = neg_mul_add(t39, t282, mul_add(t45, t280, t284));
-    let t294 = neg_mul_add(t36, t280, mul_add(t39, t281, t285));
-    // first moments by platform coordinate of the payload's inertia force
-    let t295 = mul_sub(t122, P::splat(P::lane(t288, 0)), t289);
-    let t296 = mul_add(t123, P::splat(P::lane(t266, 0)), t291);
-    // inertia less external wrench that the actuators must balance
-    let t297 = mul_add(t5, P::splat(external_wrench[2]), t290);
-    // first moments by platform coordinate of the payload's inertia force
-    let t298 = t110 * P::splat(P::lane(t266, 1));
-    let t299 = mul_add(t124, P::splat(P::lane(t266, 1)), t296);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t300 = P::triple([P::lane(t292, 0), P::lane(t293, 0), P::lane(t294, 0)]);
-    let t301 = P::triple([P::lane(t292, 1), P::lane(t293, 1), P::lane(t294, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t302 = mul_sub(t122, P::splat(P::lane(t288, 1)), t299);
-    let t303 = mul_add(t123, P::splat(P::lane(t266, 2)), t298);
-    // inertia less external wrench that the actuators must balance
-    let t304 = P::triple([P::lane(t297, 2), P::lane(t297, 0), P::lane(t297, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t305 = P::triple([P::lane(t295, 2), P::lane(t295, 0), P::lane(t295, 1)]);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t306 = P::triple([P::lane(t292, 2), P::lane(t293, 2), P::lane(t294, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t307 = mul_add(P::splat(parameters.payload_com[0]), t304, t305);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t308 = t300 + t301 + t306;
-    // first moments by platform coordinate of the payload's inertia force
-    let t309 = mul_add(t124, P::splat(P::lane(t271, 2)), t303);
     // mass of payload and platform-side leg ends
-    let t310 = t144 + t158;
+    let t289 = t144 + t158;
     // first moments by platform coordinate of the payload's inertia force
-    let t311 = mul_sub(t122, P::splat(P::lane(t288, 2)), t309);
-    let t312 = P::triple([P::lane(t302, 2), P::lane(t302, 0), P::lane(t302, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t313 = t268 + t280;
+    let t290 = mul_add(t124, P::splat(P::lane(t266, 2)), t286);
     // inertia less external wrench that the actuators must balance
-    let t314 = mul_add(P::splat(parameters.payload_com[1]), t304, t312);
+    let t291 = mul_add(t2, P::splat(external_wrench[0]), t287);
     // inertia force less weight, without the actuators' own shares
-    let t315 = t269 + t281;
-    // inertia less external wrench that the actuators must balance
-    let t316 = P::triple([P::lane(t307, 2), P::lane(t307, 0), P::lane(t307, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t317 = t270 + t282;
-    // inertia less external wrench that the actuators must balance
-    let t318 = mul_add(t85, t316, neg_mul_add(t76, t307, t308));
+    let t292 = t268 + t280;
+    let t293 = t269 + t281;
+    let t294 = t270 + t282;
     // first moments by platform coordinate of the payload's inertia force
-    let t319 = P::triple([P::lane(t311, 2), P::lane(t311, 0), P::lane(t311, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t320 = P::triple([P::lane(t313, 0), P::lane(t315, 0), P::lane(t317, 0)]);
-    let t321 = P::triple([P::lane(t313, 1), P::lane(t315, 1), P::lane(t317, 1)]);
+    let t295 = t110 * P::splat(P::lane(t271, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t296 = neg_mul_add(t45, t281, mul_add(t36, t282, t283));
+    let t297 = neg_mul_add(t39, t282, mul_add(t45, t280, t284));
+    let t298 = neg_mul_add(t36, t280, mul_add(t39, t281, t285));
+    // first moments by platform coordinate of the payload's inertia force
+    let t299 = mul_sub(t122, P::splat(P::lane(t288, 0)), t290);
+    let t300 = mul_add(t123, P::splat(P::lane(t266, 0)), t295);
     // inertia less external wrench that the actuators must balance
-    let t322 = mul_add(P::splat(parameters.payload_com[2]), t304, t319);
-    let t323 = P::triple([P::lane(t314, 2), P::lane(t314, 0), P::lane(t314, 1)]);
+    let t301 = mul_add(t5, P::splat(external_wrench[2]), t291);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t302 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t303 = P::triple([P::lane(t117, 1), P::lane(t117, 2), P::lane(t117, 0)]);
+    let t304 = P::triple([P::lane(t131, 1), P::lane(t131, 2), P::lane(t131, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t305 = P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t306 = P::triple([P::lane(t292, 0), P::lane(t293, 0), P::lane(t294, 0)]);
+    let t307 = P::triple([P::lane(t292, 1), P::lane(t293, 1), P::lane(t294, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t308 = mul_add(t124, P::splat(P::lane(t266, 1)), t300);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t309 = P::triple([P::lane(t117, 2), P::lane(t117, 0), P::lane(t117, 1)]);
     // mass of payload and platform-side leg ends
-    let t324 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
-    // inertia less external wrench that the actuators must balance
-    let t325 = neg_mul_add(t79, t323, mul_sub(t67, t314, t318));
-    // inertia force less weight, without the actuators' own shares
-    let t326 = P::triple([P::lane(t313, 2), P::lane(t315, 2), P::lane(t317, 2)]);
-    // mass of payload and platform-side leg ends
-    let t327 = parameters.payload_mass + t324;
-    // inertia force less weight, without the actuators' own shares
-    let t328 = neg_mul_add(t122, P::splat(t327), t320 + t321 + t326);
-    // inertia less external wrench that the actuators must balance
-    let t329 = P::triple([P::lane(t322, 2), P::lane(t322, 0), P::lane(t322, 1)]);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t330 = mul_sub(t33, t131, t37 * t106);
-    // inertia less external wrench that the actuators must balance
-    let t331 = neg_mul_add(t87, t329, mul_add(t81, t322, t325));
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t332 = mul_sub(t36, t149, t45 * t130);
-    // inertia force less weight, without the actuators' own shares
-    let t333 = mul_add(t123, P::splat(P::lane(t288, 0)), t328);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t334 = mul_sub(t37, t117, t32 * t131);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t335 = mul_sub(t45, t137, t39 * t149);
-    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t336 = mul_sub(t32, t106, t33 * t117);
-    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t337 = mul_sub(t39, t130, t36 * t137);
-    // inertia less external wrench that the actuators must balance
-    let t338 = mul_add(t2, P::splat(external_wrench[3]), t331);
-    // inertia force less weight, without the actuators' own shares
-    let t339 = mul_add(t110, P::splat(P::lane(t288, 1)), t333);
-    // inertia less external wrench that the actuators must balance
-    let t340 = mul_add(t1, P::splat(external_wrench[4]), t338);
-    // inertia force less weight, without the actuators' own shares
-    let t341 = mul_add(t124, P::splat(P::lane(t288, 2)), t339);
-    // inertia less external wrench that the actuators must balance
-    let t342 = mul_add(t5, P::splat(external_wrench[5]), t340);
-    let t343 = t341 - t297;
-    let t344 = -P::lane(t342, 0);
-    let t345 = -P::lane(t342, 1);
-    let t346 = -P::lane(t342, 2);
+    let t310 = P::lane(t289, 2) + (P::lane(t289, 1) + P::lane(t289, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t311 = t110 * P::splat(P::lane(t266, 1));
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t312 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
-        &[
-            [P::lane(t117, 0), P::lane(t117, 1), P::lane(t117, 2), P::lane(t137, 0), P::lane(t137, 1), P::lane(t137, 2)],
-            [P::lane(t106, 0), P::lane(t106, 1), P::lane(t106, 2), P::lane(t130, 0), P::lane(t130, 1), P::lane(t130, 2)],
-            [P::lane(t131, 0), P::lane(t131, 1), P::lane(t131, 2), P::lane(t149, 0), P::lane(t149, 1), P::lane(t149, 2)],
-            [P::lane(t330, 0), P::lane(t330, 1), P::lane(t330, 2), P::lane(t332, 0), P::lane(t332, 1), P::lane(t332, 2)],
-            [P::lane(t334, 0), P::lane(t334, 1), P::lane(t334, 2), P::lane(t335, 0), P::lane(t335, 1), P::lane(t335, 2)],
-            [P::lane(t336, 0), P::lane(t336, 1), P::lane(t336, 2), P::lane(t337, 0), P::lane(t337, 1), P::lane(t337, 2)],
-        ],
-        &[P::lane(t343, 0), P::lane(t343, 1), P::lane(t343, 2), t344, t345, t346],
-    );
+    let t313 = mul_sub(t304, t309, t302 * t303);
+    let t314 = mul_sub(t302, t312, t304 * t305);
+    // inertia force less weight, without the actuators' own shares
+    let t315 = P::triple([P::lane(t292, 2), P::lane(t293, 2), P::lane(t294, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t316 = P::triple([P::lane(t296, 0), P::lane(t297, 0), P::lane(t298, 0)]);
+    let t317 = P::triple([P::lane(t296, 1), P::lane(t297, 1), P::lane(t298, 1)]);
+    // mass of payload and platform-side leg ends
+    let t318 = parameters.payload_mass + t310;
+    // first moments by platform coordinate of the payload's inertia force
+    let t319 = mul_sub(t122, P::splat(P::lane(t288, 1)), t308);
+    let t320 = mul_add(t123, P::splat(P::lane(t266, 2)), t311);
+    // inertia less external wrench that the actuators must balance
+    let t321 = P::triple([P::lane(t301, 2), P::lane(t301, 0), P::lane(t301, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t322 = P::triple([P::lane(t299, 2), P::lane(t299, 0), P::lane(t299, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t323 = mul_add(P::splat(parameters.payload_com[0]), t321, t322);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t324 = P::triple([P::lane(t296, 2), P::lane(t297, 2), P::lane(t298, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t325 = neg_mul_add(t122, P::splat(t318), t306 + t307 + t315);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t326 = t316 + t317 + t324;
+    // force along the actuator that balances the remaining wrench
+    let t327 = t130 * P::splat(P::lane(t313, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t328 = mul_add(t124, P::splat(P::lane(t271, 2)), t320);
+    // force along the actuator that balances the remaining wrench
+    let t329 = mul_sub(t303, t305, t309 * t312);
+    let t330 = mul_add(t137, P::splat(P::lane(t314, 0)), t327);
+    let t331 = P::lane(t117, 1) * P::lane(t314, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t332 = mul_add(t123, P::splat(P::lane(t288, 0)), t325);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t333 = mul_sub(t37, t117, t32 * t131);
+    let t334 = mul_sub(t32, t106, t33 * t117);
+    // first moments by platform coordinate of the payload's inertia force
+    let t335 = mul_sub(t122, P::splat(P::lane(t288, 2)), t328);
+    let t336 = P::triple([P::lane(t319, 2), P::lane(t319, 0), P::lane(t319, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t337 = mul_add(P::splat(parameters.payload_com[1]), t321, t336);
+    let t338 = P::triple([P::lane(t323, 2), P::lane(t323, 0), P::lane(t323, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t339 = P::mul_add(P::lane(t117, 0), P::lane(t314, 0), t331);
+    // inertia less external wrench that the actuators must balance
+    let t340 = mul_add(t85, t338, neg_mul_add(t76, t323, t326));
+    // force along the actuator that balances the remaining wrench
+    let t341 = mul_add(t149, P::splat(P::lane(t329, 0)), t330);
+    let t342 = t130 * P::splat(P::lane(t313, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t343 = mul_add(t110, P::splat(P::lane(t288, 1)), t332);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t344 = mul_sub(t45, t137, t39 * t149);
+    let t345 = mul_sub(t39, t130, t36 * t137);
+    // force along the actuator that balances the remaining wrench
+    let t346 = mul_add(t137, P::splat(P::lane(t314, 1)), t342);
+    let t347 = P::mul_add(P::lane(t117, 2), P::lane(t314, 2), t339);
+    let t348 = t130 * P::splat(P::lane(t313, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t349 = mul_add(t124, P::splat(P::lane(t288, 2)), t343);
+    // first moments by platform coordinate of the payload's inertia force
+    let t350 = P::triple([P::lane(t335, 2), P::lane(t335, 0), P::lane(t335, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t351 = mul_add(P::splat(parameters.payload_com[2]), t321, t350);
+    let t352 = P::triple([P::lane(t337, 2), P::lane(t337, 0), P::lane(t337, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t353 = mul_add(t149, P::splat(P::lane(t329, 1)), t346);
+    let t354 = mul_add(t137, P::splat(P::lane(t314, 2)), t348);
+    let t355 = mul_sub(t344, P::splat(t347), t341 * P::splat(P::lane(t333, 0)));
+    let t356 = mul_sub(t345, P::splat(t347), t341 * P::splat(P::lane(t334, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t357 = neg_mul_add(t79, t352, mul_sub(t67, t337, t340));
+    let t358 = t349 - t301;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t359 = mul_sub(t33, t131, t37 * t106);
+    // force along the actuator that balances the remaining wrench
+    let t360 = mul_add(t149, P::splat(P::lane(t329, 2)), t354);
+    let t361 = neg_mul_add(P::splat(P::lane(t333, 1)), t353, t355);
+    let t362 = neg_mul_add(P::splat(P::lane(t334, 1)), t353, t356);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t363 = mul_sub(t36, t149, t45 * t130);
+    // inertia less external wrench that the actuators must balance
+    let t364 = P::triple([P::lane(t351, 2), P::lane(t351, 0), P::lane(t351, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t365 = neg_mul_add(P::splat(P::lane(t333, 2)), t360, t361);
+    let t366 = neg_mul_add(P::splat(P::lane(t334, 2)), t360, t362);
+    // inertia less external wrench that the actuators must balance
+    let t367 = neg_mul_add(t87, t364, mul_add(t81, t351, t357));
+    // force along the actuator that balances the remaining wrench
+    let t368 = t313 * P::splat(P::lane(t358, 1));
+    let t369 = mul_add(t314, P::splat(P::lane(t358, 0)), t368);
+    let t370 = mul_sub(P::splat(t347), t363, t341 * P::splat(P::lane(t359, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t371 = mul_add(t2, P::splat(external_wrench[3]), t367);
+    // force along the actuator that balances the remaining wrench
+    let t372 = mul_add(t329, P::splat(P::lane(t358, 2)), t369);
+    let t373 = neg_mul_add(t353, P::splat(P::lane(t359, 1)), t370);
+    let t374 = P::triple([P::lane(t365, 2), P::lane(t365, 0), P::lane(t365, 1)]);
+    let t375 = P::triple([P::lane(t365, 1), P::lane(t365, 2), P::lane(t365, 0)]);
+    let t376 = P::triple([P::lane(t366, 1), P::lane(t366, 2), P::lane(t366, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t377 = mul_add(t1, P::splat(external_wrench[4]), t371);
+    // force along the actuator that balances the remaining wrench
+    let t378 = P::triple([P::lane(t366, 2), P::lane(t366, 0), P::lane(t366, 1)]);
+    let t379 = neg_mul_add(t360, P::splat(P::lane(t359, 2)), t373);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t380 = P::triple([P::lane(t359, 0), P::lane(t333, 0), P::lane(t334, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t381 = mul_sub(t375, t378, t374 * t376);
+    // inertia less external wrench that the actuators must balance
+    let t382 = mul_add(t5, P::splat(external_wrench[5]), t377);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t383 = P::triple([P::lane(t359, 1), P::lane(t333, 1), P::lane(t334, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t384 = mul_add(P::splat(t347), t382, P::splat(P::lane(t372, 0)) * t380);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t385 = P::triple([P::lane(t359, 2), P::lane(t333, 2), P::lane(t334, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t386 = P::triple([P::lane(t379, 1), P::lane(t379, 2), P::lane(t379, 0)]);
+    let t387 = P::triple([P::lane(t379, 2), P::lane(t379, 0), P::lane(t379, 1)]);
+    let t388 = P::lane(t379, 1) * P::lane(t381, 1);
+    let t389 = mul_add(P::splat(P::lane(t372, 1)), t383, t384);
+    let t390 = P::mul_add(P::lane(t379, 0), P::lane(t381, 0), t388);
+    let t391 = mul_add(P::splat(P::lane(t372, 2)), t385, t389);
+    let t392 = mul_sub(t374, t386, t375 * t387);
+    let t393 = P::triple([P::lane(t341, 0), P::lane(t353, 0), P::lane(t360, 0)]);
+    let t394 = c(1.0) / P::mul_add(P::lane(t379, 2), P::lane(t381, 2), t390);
+    let t395 = P::triple([P::lane(t341, 1), P::lane(t353, 1), P::lane(t360, 1)]);
+    let t396 = mul_sub(t376, t387, t378 * t386) * P::splat(P::lane(t391, 1));
+    let t397 = P::triple([P::lane(t341, 2), P::lane(t353, 2), P::lane(t360, 2)]);
+    let t398 = mul_add(t381, P::splat(P::lane(t391, 0)), t396);
+    let t399 = P::splat(t394) * mul_add(t392, P::splat(P::lane(t391, 2)), t398);
+    // inertia less external wrench that the actuators must balance
+    let t400 = -P::lane(t382, 0);
+    let t401 = -P::lane(t382, 1);
+    let t402 = -P::lane(t382, 2);
+    // force along the actuator that balances the remaining wrench
+    let t403 = -t399;
+    let t404 = mul_add(t393, P::splat(P::lane(t399, 0)), t372);
     // constant and copied elements
-    let t347 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t348 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t349 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t350 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    let t351 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    let t352 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t353 = mul_add(t131, t182, mul_add(t117, t167, t106 * t152));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t354 = mul_add(t149, t207, mul_add(t137, t196, t130 * t184));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t355 = mul_add(t59 - t347, t351, t138 * t348);
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t356 = mul_add(t64 - t349, t352, t163 * t350);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t357 = mul_add(t131, t183, mul_add(t117, t168, t106 * t153));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t358 = mul_add(t149, t208, mul_add(t137, t197, t130 * t185));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t359 = mul_add(t131, t231, mul_add(t117, t229, t106 * t230));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t360 = mul_add(t149, t249, mul_add(t137, t247, t130 * t248));
-    // legs 1, 2, 3: actuator forces F
-    let t361 = mul_add(t237, t357, mul_sub(t246, t353, t355));
-    // legs 4, 5, 6: actuator forces F
-    let t362 = mul_add(t256, t358, mul_sub(t267, t354, t356));
+    let t405 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t406 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
     // force along the actuator that balances the remaining wrench
-    let t363 = P::triple([axial_reaction[0], axial_reaction[1], axial_reaction[2]]);
-    // legs 1, 2, 3: actuator forces F
-    let t364 = t363 - neg_mul_add(t260, t359, t361);
+    let t407 = mul_add(t395, P::splat(P::lane(t399, 1)), t404);
+    // constant and copied elements
+    let t408 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t409 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
     // force along the actuator that balances the remaining wrench
-    let t365 = P::triple([axial_reaction[3], axial_reaction[4], axial_reaction[5]]);
-    // legs 4, 5, 6: actuator forces F
-    let t366 = t365 - neg_mul_add(t277, t360, t362);
+    let t410 = mul_add(t397, P::splat(P::lane(t399, 2)), t407);
+    // constant and copied elements
+    let t411 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
+    let t412 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t413 = mul_add(t131, t182, mul_add(t117, t167, t106 * t152));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t414 = mul_add(t149, t207, mul_add(t137, t196, t130 * t184));
+    // force along the actuator that balances the remaining wrench
+    let t415 = P::splat(c(1.0) / t347) * t410;
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t416 = mul_add(t59 - t405, t411, t138 * t406);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t417 = mul_add(t64 - t408, t412, t163 * t409);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t418 = mul_add(t131, t183, mul_add(t117, t168, t106 * t153));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t419 = mul_add(t149, t208, mul_add(t137, t197, t130 * t185));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t403, t415],
+        &[
+            [t137, t117],
+            [t130, t106],
+            [t149, t131],
+            [t363, t359],
+            [t344, t333],
+            [t345, t334],
+        ],
+        &[P::lane(t358, 0), P::lane(t358, 1), P::lane(t358, 2), t400, t401, t402],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t420 = mul_add(t131, t231, mul_add(t117, t229, t106 * t230));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t421 = mul_add(t149, t249, mul_add(t137, t247, t130 * t248));
+    // legs 1, 3, 5: actuator forces F
+    let t422 = mul_add(t237, t418, mul_sub(t246, t413, t416));
+    // legs 2, 4, 6: actuator forces F
+    let t423 = mul_add(t256, t419, mul_sub(t267, t414, t417));
+    // force along the actuator that balances the remaining wrench
+    let t424 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t425 = t424 - neg_mul_add(t260, t420, t422);
+    // force along the actuator that balances the remaining wrench
+    let t426 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t427 = t426 - neg_mul_add(t277, t421, t423);
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t364, 0);
+    inverse_dynamics[0] = P::lane(t425, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t364, 1);
+    inverse_dynamics[1] = P::lane(t427, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t364, 2);
+    inverse_dynamics[2] = P::lane(t425, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t366, 0);
+    inverse_dynamics[3] = P::lane(t427, 1);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t366, 1);
+    inverse_dynamics[4] = P::lane(t425, 2);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t366, 2);
+    inverse_dynamics[5] = P::lane(t427, 2);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -28608,16 +30362,16 @@ pub fn control_in_lanes<P: Triple>(
     let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // constant and copied elements
     let t9 =
-        P::triple([parameters.platform_point[0][1], parameters.platform_point[1][1], parameters.platform_point[2][1]]);
+        P::triple([parameters.platform_point[0][1], parameters.platform_point[2][1], parameters.platform_point[4][1]]);
     // rotation of the platform seen from the base
     let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
     // platform origin seen from the base
     let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
     let t12 =
-        P::triple([parameters.platform_point[0][0], parameters.platform_point[1][0], parameters.platform_point[2][0]]);
+        P::triple([parameters.platform_point[1][1], parameters.platform_point[3][1], parameters.platform_point[5][1]]);
     let t13 =
-        P::triple([parameters.platform_point[0][2], parameters.platform_point[1][2], parameters.platform_point[2][2]]);
+        P::triple([parameters.platform_point[0][0], parameters.platform_point[2][0], parameters.platform_point[4][0]]);
     // rotation of the platform seen from the base
     let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
     let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
@@ -28627,1140 +30381,1257 @@ pub fn control_in_lanes<P: Triple>(
     let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
     // constant and copied elements
     let t18 =
-        P::triple([parameters.platform_point[3][1], parameters.platform_point[4][1], parameters.platform_point[5][1]]);
+        P::triple([parameters.platform_point[1][0], parameters.platform_point[3][0], parameters.platform_point[5][0]]);
     let t19 =
-        P::triple([parameters.platform_point[3][0], parameters.platform_point[4][0], parameters.platform_point[5][0]]);
+        P::triple([parameters.platform_point[0][2], parameters.platform_point[2][2], parameters.platform_point[4][2]]);
     let t20 =
-        P::triple([parameters.platform_point[3][2], parameters.platform_point[4][2], parameters.platform_point[5][2]]);
+        P::triple([parameters.platform_point[1][2], parameters.platform_point[3][2], parameters.platform_point[5][2]]);
     let t21 =
-        P::triple([parameters.base_point[0][1], parameters.base_point[1][1], parameters.base_point[2][1]]);
+        P::triple([parameters.base_point[0][1], parameters.base_point[2][1], parameters.base_point[4][1]]);
     // platform origin seen from the base
     let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
-    // legs 1, 2, 3: platform joint from the platform origin
+    // legs 1, 3, 5: platform joint from the platform origin
     let t23 = t9 * P::splat(P::lane(t14, 0));
-    let t24 = t9 * P::splat(P::lane(t14, 1));
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t25 = t18 * P::splat(P::lane(t14, 1));
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t24 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
     let t27 = t9 * P::splat(P::lane(t14, 2));
-    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t29 = t18 * P::splat(P::lane(t14, 0));
-    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
-    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
-    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
-    let t35 = t18 * P::splat(P::lane(t14, 2));
-    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = mul_add(t18, P::splat(P::lane(t15, 1)), t26);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t24);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t27);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
     // constant and copied elements
-    let t38 =
-        P::triple([parameters.base_point[0][0], parameters.base_point[1][0], parameters.base_point[2][0]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
-    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
-    // legs 1, 2, 3: platform joint from the base point
-    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
-    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    let t39 =
+        P::triple([parameters.base_point[1][1], parameters.base_point[3][1], parameters.base_point[5][1]]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t40 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // legs 2, 4, 6: platform joint from the base point
+    let t43 = P::splat(P::lane(t22, 1)) + t35 - t39;
     // constant and copied elements
-    let t43 =
-        P::triple([parameters.base_point[3][1], parameters.base_point[4][1], parameters.base_point[5][1]]);
     let t44 =
-        P::triple([parameters.base_point[0][2], parameters.base_point[1][2], parameters.base_point[2][2]]);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
-    // legs 4, 5, 6: platform joint from the base point
-    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
-    // legs 1, 2, 3: platform joint from the base point
-    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+        P::triple([parameters.base_point[0][0], parameters.base_point[2][0], parameters.base_point[4][0]]);
+    let t45 =
+        P::triple([parameters.base_point[1][0], parameters.base_point[3][0], parameters.base_point[5][0]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t44;
+    // legs 2, 4, 6: platform joint from the base point
+    let t47 = t37 + P::splat(P::lane(t22, 0)) - t45;
     // constant and copied elements
     let t48 =
-        P::triple([parameters.base_point[3][0], parameters.base_point[4][0], parameters.base_point[5][0]]);
+        P::triple([parameters.base_point[0][2], parameters.base_point[2][2], parameters.base_point[4][2]]);
     let t49 =
-        P::triple([parameters.base_point[3][2], parameters.base_point[4][2], parameters.base_point[5][2]]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+        P::triple([parameters.base_point[1][2], parameters.base_point[3][2], parameters.base_point[5][2]]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t50 = t40 + P::splat(P::lane(t22, 2)) - t48;
+    // legs 2, 4, 6: platform joint from the base point
+    let t51 = t41 + P::splat(P::lane(t22, 2)) - t49;
     // angular velocity of the base
-    let t51 = t1 * P::splat(base_velocity[4]);
+    let t52 = t1 * P::splat(base_velocity[4]);
     // angular velocity of the platform
-    let t52 = t1 * P::splat(platform_velocity[4]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    let t53 = t1 * P::splat(platform_velocity[4]);
     // angular velocity of the base
-    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t52);
     // angular velocity of the platform
-    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t53);
     // velocity of the platform origin relative to the base
     let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // platform origin seen from the base
     let t57 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
     let t58 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
-    // legs 1, 2, 3: actuator length d
-    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t50, t50, mul_add(t46, t46, t42 * t42)));
+    // legs 2, 4, 6: actuator length d
+    let t60 = sqrt(mul_add(t51, t51, mul_add(t47, t47, t43 * t43)));
     // angular velocity of the base
-    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    let t61 = mul_add(t5, P::splat(base_velocity[5]), t54);
     // velocity of the platform origin relative to the base
-    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    let t62 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
     // angular velocity of the platform
-    let t62 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t55);
     // angular acceleration of the base
-    let t63 = t1 * P::splat(base_acceleration[4]);
-    // legs 4, 5, 6: actuator length d
-    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    let t64 = t1 * P::splat(base_acceleration[4]);
     // rotation of the platform seen from the base
     let t65 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
     let t66 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
     let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
     // velocity of the platform origin relative to the base
-    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t62);
     // angular velocity of the platform relative to the base
-    let t69 = t60 - t62;
+    let t69 = t61 - t63;
     // angular acceleration of the base
-    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t63);
+    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t64);
     // angular velocity of the base
-    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
-    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t72 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t73 = P::triple([P::lane(t61, 0), P::lane(t61, 2), P::lane(t61, 0)]);
     // angular velocity of the platform
-    let t73 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
+    let t74 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
     // velocity of the platform origin relative to the base
-    let t74 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
+    let t75 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
     // angular acceleration of the base
-    let t75 = mul_add(t5, P::splat(base_acceleration[5]), t70);
+    let t76 = mul_add(t5, P::splat(base_acceleration[5]), t70);
     // acceleration per platform coordinate of points of the platform
-    let t76 = mul_sub(t62, t65, t14 * t73);
-    let t77 = mul_sub(t62, t66, t15 * t73);
-    let t78 = mul_sub(t62, t67, t17 * t73);
+    let t77 = mul_sub(t63, t65, t14 * t74);
+    let t78 = mul_sub(t63, t66, t15 * t74);
+    let t79 = mul_sub(t63, t67, t17 * t74);
     // angular velocity of the base
-    let t79 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
-    let t80 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    let t80 = P::triple([P::lane(t61, 1), P::lane(t61, 1), P::lane(t61, 2)]);
     // acceleration of the base origin less gravity
     let t81 = base_acceleration[0] - parameters.gravity[0];
-    // legs 1, 2, 3: reciprocal of the actuator length
-    let t82 = w(1.0) / t59;
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t83 = neg_mul_add(t32, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
-    // legs 4, 5, 6: reciprocal of the actuator length
-    let t84 = w(1.0) / t64;
-    // acceleration of the base origin less gravity
-    let t85 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    let t82 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t83 = w(1.0) / t59;
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t60;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t85 = neg_mul_add(t36, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t86 = neg_mul_add(t37, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
     // angular velocity of the base
-    let t86 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t87 = P::triple([P::lane(t61, 2), P::lane(t61, 2), P::lane(t61, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t87 = t79 * t80;
+    let t88 = t73 * t80;
     // acceleration of the platform origin less gravity
-    let t88 = t1 * P::splat(parameters.gravity[1]);
+    let t89 = t1 * P::splat(parameters.gravity[1]);
     // angular velocity of the platform
-    let t89 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
+    let t90 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t90 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t91 = neg_mul_add(t37, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
-    let t92 = mul_add(t37, P::splat(P::lane(t69, 0)), t83);
+    let t91 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t92 = neg_mul_add(t40, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t93 = neg_mul_add(t41, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t94 = mul_add(t40, P::splat(P::lane(t69, 0)), t85);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t95 = mul_add(t41, P::splat(P::lane(t69, 0)), t86);
     // angular velocity of the base
-    let t93 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    let t96 = P::triple([P::lane(t61, 1), P::lane(t61, 0), P::lane(t61, 1)]);
     // acceleration of the platform origin less gravity
-    let t94 = mul_add(t2, P::splat(parameters.gravity[0]), t88);
+    let t97 = mul_add(t2, P::splat(parameters.gravity[0]), t89);
     // acceleration per platform coordinate of points of the platform
-    let t95 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
-    let t96 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t97 = t42 * t82;
+    let t98 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    let t99 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t100 = t42 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t101 = t43 * t84;
     // acceleration of the base origin less gravity
-    let t98 = base_acceleration[2] - parameters.gravity[2];
+    let t102 = base_acceleration[2] - parameters.gravity[2];
     // acceleration per base coordinate of points that move with the base
-    let t99 = mul_add(t93, t93, t86 * t86);
+    let t103 = mul_add(t96, t96, t87 * t87);
     // acceleration per platform coordinate of points of the platform
-    let t100 = mul_sub(t73, t76, t89 * t90);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t101 = mul_add(t33, P::splat(P::lane(t69, 2)), t91);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t102 = neg_mul_add(t39, P::splat(P::lane(t69, 2)), P::splat(P::lane(t74, 1)));
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t103 = neg_mul_add(t33, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
+    let t104 = mul_sub(t74, t77, t90 * t91);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t105 = mul_add(t34, P::splat(P::lane(t69, 2)), t92);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t106 = mul_add(t35, P::splat(P::lane(t69, 2)), t93);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t107 = neg_mul_add(t34, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t35, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
     // angular acceleration of the base
-    let t104 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t105 = t41 * t82;
+    let t109 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t110 = t46 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t111 = t47 * t84;
     // acceleration of the base origin less gravity
-    let t106 = mul_add(t5, P::splat(t98), mul_add(t2, P::splat(t81), t85));
+    let t112 = mul_add(t5, P::splat(t102), mul_add(t2, P::splat(t81), t82));
     // acceleration per base coordinate of points that move with the base
-    let t107 = mul_sub(t79, t80, t104);
+    let t113 = mul_sub(t73, t80, t109);
     // angular acceleration of the base
-    let t108 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t114 = P::triple([P::lane(t76, 1), P::lane(t76, 2), P::lane(t76, 0)]);
     // acceleration per base coordinate of points that move with the base
-    let t109 = P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
+    let t115 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
     // acceleration of the platform origin less gravity
-    let t110 = mul_add(t5, P::splat(parameters.gravity[2]), t94);
+    let t116 = mul_add(t5, P::splat(parameters.gravity[2]), t97);
     // acceleration per platform coordinate of points of the platform
-    let t111 = mul_sub(t73, t77, t89 * t95);
-    let t112 = mul_sub(t73, t78, t89 * t96);
+    let t117 = mul_sub(t74, t78, t90 * t98);
+    let t118 = mul_sub(t74, t79, t90 * t99);
     // acceleration per base coordinate of points that move with the base
-    let t113 = t108 + t109;
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t114 = neg_mul_add(t45, P::splat(P::lane(t69, 1)), P::splat(P::lane(t74, 0)));
-    let t115 = mul_add(t45, P::splat(P::lane(t69, 0)), t102);
-    // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t116 = mul_add(t32, P::splat(P::lane(t69, 1)), t103);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t117 = mul_add(t41, P::splat(P::lane(t60, 2)), t92);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t118 = t46 * t84;
-    // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t119 = t47 * t82;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t120 = t9 * P::splat(P::lane(t100, 1));
-    let t121 = t21 * P::splat(P::lane(t99, 1));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t122 = mul_add(t36, P::splat(P::lane(t69, 2)), t114);
-    let t123 = neg_mul_add(t36, P::splat(P::lane(t69, 0)), P::splat(P::lane(t74, 2)));
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t124 = mul_add(t47, P::splat(P::lane(t60, 1)), t101);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t125 = t50 * t84;
-    // legs 1, 2, 3: actuator velocity d'
-    let t126 = mul_add(t116, t119, mul_add(t101, t105, t92 * t97));
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t127 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t117);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t128 = t9 * P::splat(P::lane(t100, 0));
-    let t129 = t21 * P::splat(P::lane(t107, 0));
-    let t130 = neg_mul_add(t13, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
-    let t131 = mul_add(t44, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t132 = mul_add(t39, P::splat(P::lane(t69, 1)), t123);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t133 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t124);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t134 = mul_add(t50, P::splat(P::lane(t60, 2)), t115);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t135 = mul_add(t42, P::splat(P::lane(t60, 0)), t116);
-    // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t136 = t53 * t84;
-    // legs 1, 2, 3: actuator acceleration d''
-    let t137 = neg_mul_add(t13, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
-    let t138 = mul_add(t44, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
-    let t139 = t130 - mul_add(t12, P::splat(P::lane(t111, 1)), t120);
-    let t140 = mul_sub(t38, P::splat(P::lane(t113, 1)), t121) + t131;
-    let t141 = t9 * P::splat(P::lane(t100, 2));
-    let t142 = t21 * P::splat(P::lane(t113, 2));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t143 = t18 * P::splat(P::lane(t100, 1));
-    let t144 = t43 * P::splat(P::lane(t99, 1));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t145 = mul_add(t53, P::splat(P::lane(t60, 1)), t122);
-    // legs 4, 5, 6: actuator velocity d'
-    let t146 = mul_add(t132, t136, mul_add(t122, t125, t115 * t118));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t147 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t134);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t148 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t135);
-    // constant and copied elements
-    let t149 =
-        P::triple([parameters.upper_mass[3], parameters.upper_mass[4], parameters.upper_mass[5]]);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t150 = t82 * neg_mul_add(t97, t126, t127);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t151 = t137 - mul_add(t12, P::splat(P::lane(t111, 0)), t128);
-    let t152 = t138 - mul_sub(t38, P::splat(P::lane(t99, 0)), t129);
-    let t153 = t139 + t140;
-    let t154 = neg_mul_add(t13, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
-    let t155 = neg_mul_add(t44, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t156 = t18 * P::splat(P::lane(t100, 0));
-    let t157 = t43 * P::splat(P::lane(t107, 0));
-    let t158 = neg_mul_add(t20, P::splat(P::lane(t112, 1)), P::splat(P::lane(t110, 1)));
-    let t159 = mul_add(t49, P::splat(P::lane(t107, 1)), P::splat(P::lane(t106, 1)));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t160 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t145);
-    let t161 = mul_add(t46, P::splat(P::lane(t60, 0)), t132);
+    let t119 = t114 + t115;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t36, P::splat(P::lane(t69, 1)), t107);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t121 = mul_add(t37, P::splat(P::lane(t69, 1)), t108);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t122 = mul_add(t46, P::splat(P::lane(t61, 2)), t94);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t123 = mul_add(t47, P::splat(P::lane(t61, 2)), t95);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t124 = t50 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t125 = t51 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t126 = t9 * P::splat(P::lane(t104, 1));
+    let t127 = t21 * P::splat(P::lane(t103, 1));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t128 = t12 * P::splat(P::lane(t104, 1));
+    let t129 = t39 * P::splat(P::lane(t103, 1));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t130 = mul_add(t50, P::splat(P::lane(t61, 1)), t105);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t131 = mul_add(t51, P::splat(P::lane(t61, 1)), t106);
+    // legs 1, 3, 5: actuator velocity d'
+    let t132 = mul_add(t120, t124, mul_add(t105, t110, t94 * t100));
+    // legs 2, 4, 6: actuator velocity d'
+    let t133 = mul_add(t121, t125, mul_add(t106, t111, t95 * t101));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t134 = neg_mul_add(t50, P::splat(P::lane(t61, 0)), t122);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t135 = neg_mul_add(t51, P::splat(P::lane(t61, 0)), t123);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t136 = t9 * P::splat(P::lane(t104, 0));
+    let t137 = t21 * P::splat(P::lane(t113, 0));
+    let t138 = neg_mul_add(t19, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t139 = mul_add(t48, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t140 = t12 * P::splat(P::lane(t104, 0));
+    let t141 = t39 * P::splat(P::lane(t113, 0));
+    let t142 = neg_mul_add(t20, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t143 = mul_add(t49, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t144 = neg_mul_add(t42, P::splat(P::lane(t61, 2)), t130);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t145 = neg_mul_add(t43, P::splat(P::lane(t61, 2)), t131);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t146 = mul_add(t42, P::splat(P::lane(t61, 0)), t120);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t147 = mul_add(t43, P::splat(P::lane(t61, 0)), t121);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t148 = neg_mul_add(t19, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t149 = mul_add(t48, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t150 = neg_mul_add(t20, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t151 = mul_add(t49, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t152 = t138 - mul_add(t13, P::splat(P::lane(t117, 1)), t126);
+    let t153 = mul_sub(t44, P::splat(P::lane(t119, 1)), t127) + t139;
+    let t154 = t9 * P::splat(P::lane(t104, 2));
+    let t155 = t21 * P::splat(P::lane(t119, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t156 = t142 - mul_add(t18, P::splat(P::lane(t117, 1)), t128);
+    let t157 = mul_sub(t45, P::splat(P::lane(t119, 1)), t129) + t143;
+    let t158 = t12 * P::splat(P::lane(t104, 2));
+    let t159 = t39 * P::splat(P::lane(t119, 2));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t46, P::splat(P::lane(t61, 1)), t146);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t161 = neg_mul_add(t47, P::splat(P::lane(t61, 1)), t147);
     // constant and copied elements
     let t162 =
-        P::triple([parameters.upper_mass[0], parameters.upper_mass[1], parameters.upper_mass[2]]);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t163 = t82 * neg_mul_add(t105, t126, t133);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t164 = t151 + t152;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t165 = neg_mul_add(t20, P::splat(P::lane(t112, 0)), P::splat(P::lane(t110, 0)));
-    let t166 = mul_add(t49, P::splat(P::lane(t113, 0)), P::splat(P::lane(t106, 0)));
-    // second moment of payload and platform-side leg ends
-    let t167 = mul_add(t12 * t12, t162, t19 * t19 * t149);
-    let t168 = mul_add(t9 * t12, t162, t18 * t19 * t149);
-    let t169 = mul_add(t12 * t13, t162, t19 * t20 * t149);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t170 = t154 - mul_add(t12, P::splat(P::lane(t111, 2)), t141);
-    let t171 = mul_add(t38, P::splat(P::lane(t107, 2)), t142) + t155;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t172 = t158 - mul_add(t19, P::splat(P::lane(t111, 1)), t143);
-    let t173 = mul_sub(t48, P::splat(P::lane(t113, 1)), t144) + t159;
-    let t174 = t18 * P::splat(P::lane(t100, 2));
-    let t175 = t43 * P::splat(P::lane(t113, 2));
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t176 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t161);
-    let t177 = t84 * neg_mul_add(t118, t146, t147);
-    // legs 1, 2, 3: inertial rate of that gradient
-    let t178 = t82 * neg_mul_add(t119, t126, t148);
-    // legs 1, 2, 3: actuator acceleration d''
+        P::triple([parameters.upper_mass[1], parameters.upper_mass[3], parameters.upper_mass[5]]);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t163 = t83 * neg_mul_add(t100, t132, t134);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t164 = t84 * neg_mul_add(t101, t133, t135);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t165 = t148 - mul_add(t13, P::splat(P::lane(t117, 0)), t136);
+    let t166 = t149 - mul_sub(t44, P::splat(P::lane(t103, 0)), t137);
+    let t167 = t152 + t153;
+    let t168 = neg_mul_add(t19, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t169 = neg_mul_add(t48, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t170 = t150 - mul_add(t18, P::splat(P::lane(t117, 0)), t140);
+    let t171 = t151 - mul_sub(t45, P::splat(P::lane(t103, 0)), t141);
+    let t172 = t156 + t157;
+    let t173 = neg_mul_add(t20, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t174 = neg_mul_add(t49, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // constant and copied elements
+    let t175 =
+        P::triple([parameters.upper_mass[0], parameters.upper_mass[2], parameters.upper_mass[4]]);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t176 = t83 * neg_mul_add(t110, t132, t144);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t177 = t84 * neg_mul_add(t111, t133, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t178 = t165 + t166;
+    // legs 2, 4, 6: actuator acceleration d''
     let t179 = t170 + t171;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t180 = t165 - mul_add(t19, P::splat(P::lane(t111, 0)), t156);
-    let t181 = t166 - mul_sub(t48, P::splat(P::lane(t99, 0)), t157);
-    let t182 = t172 + t173;
-    let t183 = neg_mul_add(t20, P::splat(P::lane(t112, 2)), P::splat(P::lane(t110, 2)));
-    let t184 = neg_mul_add(t49, P::splat(P::lane(t99, 2)), P::splat(P::lane(t106, 2)));
-    // constant and copied elements
-    let t185 =
-        P::triple([parameters.lower_mass[0], parameters.lower_mass[1], parameters.lower_mass[2]]);
-    let t186 =
-        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[1], parameters.lower_com_distance[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t187 = t84 * neg_mul_add(t125, t146, t160);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t188 = mul_add(t119, t179, mul_add(t105, t164, t97 * t153));
-    let t189 = mul_add(t178, t178, mul_add(t163, t163, t150 * t150));
-    // legs 4, 5, 6: actuator acceleration d''
-    let t190 = t180 + t181;
-    // legs 1, 2, 3: first moment of the lower part about the base joint
-    let t191 = t185 * t186;
-    // legs 4, 5, 6: actuator acceleration d''
-    let t192 = t183 - mul_add(t19, P::splat(P::lane(t111, 2)), t174);
-    let t193 = mul_add(t48, P::splat(P::lane(t107, 2)), t175) + t184;
     // second moment of payload and platform-side leg ends
-    let t194 = mul_add(t162, t9 * t9, t149 * (t18 * t18));
-    let t195 = mul_add(t162, t9 * t13, t149 * (t18 * t20));
-    let t196 = P::triple([P::lane(t167, 0), P::lane(t168, 0), P::lane(t169, 0)]);
-    let t197 = P::triple([P::lane(t167, 1), P::lane(t168, 1), P::lane(t169, 1)]);
+    let t180 = mul_add(t13 * t13, t175, t18 * t18 * t162);
+    let t181 = mul_add(t9 * t13, t175, t12 * t18 * t162);
+    let t182 = mul_add(t13 * t19, t175, t18 * t20 * t162);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t183 = t168 - mul_add(t13, P::splat(P::lane(t117, 2)), t154);
+    let t184 = mul_add(t44, P::splat(P::lane(t113, 2)), t155) + t169;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t185 = t173 - mul_add(t18, P::splat(P::lane(t117, 2)), t158);
+    let t186 = mul_add(t45, P::splat(P::lane(t113, 2)), t159) + t174;
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t187 = t83 * neg_mul_add(t124, t132, t160);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t188 = t84 * neg_mul_add(t125, t133, t161);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t189 = t183 + t184;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t190 = t185 + t186;
     // constant and copied elements
-    let t198 =
-        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[1], parameters.lower_inertia[2]]);
-    // legs 4, 5, 6: inertial rate of that gradient
-    let t199 = t84 * neg_mul_add(t136, t146, t176);
-    // legs 1, 2, 3: actuator acceleration d''
-    let t200 = neg_mul_add(t59, t189, t188);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t201 = t192 + t193;
+    let t191 =
+        P::triple([parameters.lower_mass[0], parameters.lower_mass[2], parameters.lower_mass[4]]);
+    let t192 =
+        P::triple([parameters.lower_com_distance[0], parameters.lower_com_distance[2], parameters.lower_com_distance[4]]);
+    let t193 =
+        P::triple([parameters.lower_mass[1], parameters.lower_mass[3], parameters.lower_mass[5]]);
+    let t194 =
+        P::triple([parameters.lower_com_distance[1], parameters.lower_com_distance[3], parameters.lower_com_distance[5]]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t195 = mul_add(t124, t189, mul_add(t110, t178, t100 * t167));
+    let t196 = mul_add(t187, t187, mul_add(t176, t176, t163 * t163));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t197 = mul_add(t125, t190, mul_add(t111, t179, t101 * t172));
+    let t198 = mul_add(t188, t188, mul_add(t177, t177, t164 * t164));
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t199 = t191 * t192;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t200 = t193 * t194;
     // second moment of payload and platform-side leg ends
-    let t202 = P::triple([P::lane(t167, 2), P::lane(t168, 2), P::lane(t169, 2)]);
-    let t203 = t196 + t197 + t202;
+    let t201 = mul_add(t175, t9 * t9, t162 * (t12 * t12));
+    let t202 = mul_add(t175, t9 * t19, t162 * (t12 * t20));
+    let t203 = P::triple([P::lane(t180, 0), P::lane(t181, 0), P::lane(t182, 0)]);
+    let t204 = P::triple([P::lane(t180, 1), P::lane(t181, 1), P::lane(t182, 1)]);
     // constant and copied elements
-    let t204 =
-        P::triple([parameters.lower_mass[3], parameters.lower_mass[4], parameters.lower_mass[5]]);
     let t205 =
-        P::triple([parameters.lower_com_distance[3], parameters.lower_com_distance[4], parameters.lower_com_distance[5]]);
+        P::triple([parameters.lower_inertia[0], parameters.lower_inertia[2], parameters.lower_inertia[4]]);
     let t206 =
-        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[1], parameters.upper_com_distance[2]]);
-    let t207 =
-        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[1], parameters.upper_inertia[2]]);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t208 = mul_add(t136, t201, mul_add(t125, t190, t118 * t182));
-    let t209 = mul_add(t199, t199, mul_add(t187, t187, t177 * t177));
-    // legs 4, 5, 6: first moment of the lower part about the base joint
-    let t210 = t204 * t205;
-    // legs 1, 2, 3: first moment of the upper part about the platform joint
-    let t211 = t162 * t206;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t212 = t126 * w(2.0);
+        P::triple([parameters.lower_inertia[1], parameters.lower_inertia[3], parameters.lower_inertia[5]]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t207 = neg_mul_add(t59, t196, t195);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t208 = neg_mul_add(t60, t198, t197);
+    // second moment of payload and platform-side leg ends
+    let t209 = P::triple([P::lane(t180, 2), P::lane(t181, 2), P::lane(t182, 2)]);
+    let t210 = t203 + t204 + t209;
     // constant and copied elements
+    let t211 =
+        P::triple([parameters.upper_com_distance[0], parameters.upper_com_distance[2], parameters.upper_com_distance[4]]);
+    let t212 =
+        P::triple([parameters.upper_com_distance[1], parameters.upper_com_distance[3], parameters.upper_com_distance[5]]);
     let t213 =
-        P::triple([parameters.lower_inertia[3], parameters.lower_inertia[4], parameters.lower_inertia[5]]);
+        P::triple([parameters.upper_inertia[0], parameters.upper_inertia[2], parameters.upper_inertia[4]]);
+    let t214 =
+        P::triple([parameters.upper_inertia[1], parameters.upper_inertia[3], parameters.upper_inertia[5]]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t215 = t175 * t211;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t216 = t162 * t212;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t217 = t132 * w(2.0);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t218 = t133 * w(2.0);
     // second moment of payload and platform-side leg ends
-    let t214 = mul_add(t162, t13 * t13, t149 * (t20 * t20));
-    let t215 = P::lane(t195, 1) + P::lane(t195, 0);
-    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
-    let t216 = mul_add(t206, t211, mul_add(t186, t191, t198) + t207);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t217 = neg_mul_add(t64, t209, t208);
-    // legs 1, 2, 3: gradient of the actuator length
-    let t218 = P::splat(base_rotation[0][1]) * t97;
-    let t219 = P::splat(base_rotation[2][1]) * t97;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t220 = t82 * t82;
-    let t221 = t82 * t211;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t222 = P::splat(base_rotation[1][1]) * t97;
+    let t219 = mul_add(t175, t19 * t19, t162 * (t20 * t20));
+    let t220 = P::lane(t202, 1) + P::lane(t202, 0);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t221 = mul_add(t211, t215, mul_add(t192, t199, t205) + t213);
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t222 = mul_add(t212, t216, mul_add(t194, t200, t206) + t214);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t223 = P::splat(base_rotation[0][1]) * t100;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t224 = P::splat(base_rotation[0][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t225 = P::splat(base_rotation[2][1]) * t100;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t226 = t83 * t83;
+    let t227 = t83 * t215;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t228 = t84 * t84;
+    let t229 = t84 * t216;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t230 = P::splat(base_rotation[1][1]) * t100;
     // second moment of payload and platform-side leg ends
-    let t223 = P::triple([P::lane(t203, 1), P::lane(t194, 2), P::lane(t195, 2)]);
-    let t224 = P::triple([c(0.0), P::lane(t194, 1) + P::lane(t194, 0), t215]);
+    let t231 = P::triple([P::lane(t210, 1), P::lane(t201, 2), P::lane(t202, 2)]);
+    let t232 = P::triple([c(0.0), P::lane(t201, 1) + P::lane(t201, 0), t220]);
+    let t233 = t231 + t232;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t234 = mul_add(P::splat(base_rotation[0][0]), t110, t223);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t235 = mul_add(P::splat(base_rotation[0][0]), t111, t224);
+    let t236 = P::splat(base_rotation[1][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t237 = mul_add(P::splat(base_rotation[2][0]), t110, t225);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = P::splat(base_rotation[2][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t239 = mul_add(P::splat(base_rotation[1][0]), t110, t230);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t240 = t221 * t226;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t241 = t222 * t228;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t242 = t83 * mul_add(t176, t217, neg_mul_add(t110, t207, t178));
+    let t243 = t83 * mul_add(t163, t217, neg_mul_add(t100, t207, t167));
+    let t244 = t83 * mul_add(t187, t217, neg_mul_add(t124, t207, t189));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t245 = t84 * mul_add(t177, t218, neg_mul_add(t111, t208, t179));
+    let t246 = t84 * mul_add(t164, t218, neg_mul_add(t101, t208, t172));
+    let t247 = t84 * mul_add(t188, t218, neg_mul_add(t125, t208, t190));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t248 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t249 = mul_add(P::splat(base_rotation[1][0]), t111, t236);
+    let t250 = mul_add(P::splat(base_rotation[2][0]), t111, t238);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t251 = P::splat(platform_rotation[0][1]) * t9;
+    let t252 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t253 = mul_add(P::splat(base_rotation[0][2]), t124, t234);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t254 = mul_add(P::splat(base_rotation[0][2]), t125, t235);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t255 = mul_add(P::splat(base_rotation[2][2]), t124, t237);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t256 = neg_mul_add(w(2.0), mul_sub(t221, t226, t227), t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t257 = neg_mul_add(w(2.0), mul_sub(t222, t228, t229), t241);
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t258 = t83 * t199;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t259 = t84 * t200;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t260 = mul_add(P::splat(base_rotation[1][2]), t124, t239);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t261 = mul_add(P::splat(platform_rotation[2][0]), t13, t248);
+    // second moment of payload and platform-side leg ends
+    let t262 = P::triple([P::lane(t210, 2), P::lane(t233, 2), P::lane(t219, 2)]);
+    let t263 = P::triple([c(0.0), c(0.0), P::lane(t219, 1) + P::lane(t219, 0)]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t264 = mul_add(P::splat(platform_rotation[0][0]), t13, t251);
+    let t265 = mul_add(P::splat(platform_rotation[1][0]), t13, t252);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t266 = mul_add(P::splat(base_rotation[1][2]), t125, t249);
+    let t267 = mul_add(P::splat(base_rotation[2][2]), t125, t250);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t268 = neg_mul_add(w(2.0), t227, t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t269 = neg_mul_add(w(2.0), t229, t241);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t270 = t253 * t256;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t271 = t254 * t257;
+    // second moment of payload and platform-side leg ends
+    let t272 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t273 = t256 * t260;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t274 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t275 = mul_add(P::splat(platform_rotation[2][2]), t19, t261);
+    let t276 = mul_add(P::splat(platform_rotation[0][2]), t19, t264);
+    let t277 = mul_add(P::splat(platform_rotation[1][2]), t19, t265);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t278 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t279 = mul_add(t253, t270, t268);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t280 = mul_add(t254, t271, t269);
+    let t281 = t266 * t271;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t282 = t255 * t270;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t283 = t267 * t271;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t284 = mul_add(t255, t255 * t256, t268);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t285 = mul_add(t165, t227, mul_add(t166, t258, t215 * t242));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t286 = mul_add(t170, t229, mul_add(t171, t259, t216 * t245));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t287 = mul_add(t152, t227, mul_add(t153, t258, t215 * t243));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t288 = mul_add(t156, t229, mul_add(t157, t259, t216 * t246));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t289 = mul_add(t183, t227, mul_add(t184, t258, t215 * t244));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t290 = mul_add(t185, t229, mul_add(t186, t259, t216 * t247));
+    // second moment of payload and platform-side leg ends
+    let t291 = t272 + parameters.payload_inertia[2][2];
     // constant and copied elements
-    let t225 =
-        P::triple([parameters.upper_com_distance[3], parameters.upper_com_distance[4], parameters.upper_com_distance[5]]);
-    let t226 =
-        P::triple([parameters.upper_inertia[3], parameters.upper_inertia[4], parameters.upper_inertia[5]]);
-    // second moment of payload and platform-side leg ends
-    let t227 = t223 + t224;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t228 = mul_add(P::splat(base_rotation[0][0]), t105, t218);
-    let t229 = mul_add(P::splat(base_rotation[2][0]), t105, t219);
-    // legs 4, 5, 6: first moment of the upper part about the platform joint
-    let t230 = t149 * t225;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t231 = mul_add(P::splat(base_rotation[1][0]), t105, t222);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t232 = t216 * t220;
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t233 = t82 * mul_add(t163, t212, neg_mul_add(t105, t200, t164));
-    let t234 = t82 * mul_add(t150, t212, neg_mul_add(t97, t200, t153));
-    let t235 = t82 * mul_add(t178, t212, neg_mul_add(t119, t200, t179));
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t236 = t146 * w(2.0);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t237 = P::splat(platform_rotation[2][1]) * t9;
-    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
-    let t238 = mul_add(t225, t230, mul_add(t205, t210, t213) + t226);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t239 = P::splat(platform_rotation[0][1]) * t9;
-    let t240 = P::splat(platform_rotation[1][1]) * t9;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t241 = mul_add(P::splat(base_rotation[0][2]), t119, t228);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t242 = P::splat(base_rotation[1][1]) * t118;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t243 = mul_add(P::splat(base_rotation[2][2]), t119, t229);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t244 = neg_mul_add(w(2.0), mul_sub(t216, t220, t221), t232);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t245 = t84 * t84;
-    let t246 = t84 * t230;
-    // legs 1, 2, 3: leg inertia between joint and base speeds
-    let t247 = t82 * t191;
-    // legs 1, 2, 3: gradient of the actuator length
-    let t248 = mul_add(P::splat(base_rotation[1][2]), t119, t231);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t249 = mul_add(P::splat(platform_rotation[2][0]), t12, t237);
-    // second moment of payload and platform-side leg ends
-    let t250 = P::triple([P::lane(t203, 2), P::lane(t227, 2), P::lane(t214, 2)]);
-    let t251 = P::triple([c(0.0), c(0.0), P::lane(t214, 1) + P::lane(t214, 0)]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t252 = mul_add(P::splat(platform_rotation[0][0]), t12, t239);
-    let t253 = mul_add(P::splat(platform_rotation[1][0]), t12, t240);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t254 = P::splat(base_rotation[0][1]) * t118;
-    let t255 = mul_add(P::splat(base_rotation[1][0]), t125, t242);
-    let t256 = P::splat(base_rotation[2][1]) * t118;
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t257 = neg_mul_add(w(2.0), t221, t232);
-    let t258 = t241 * t244;
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t259 = t238 * t245;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t260 = t84 * mul_add(t187, t236, neg_mul_add(t125, t217, t190));
-    let t261 = t84 * mul_add(t177, t236, neg_mul_add(t118, t217, t182));
-    let t262 = t84 * mul_add(t199, t236, neg_mul_add(t136, t217, t201));
-    // second moment of payload and platform-side leg ends
-    let t263 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t264 = t244 * t248;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t265 = P::splat(platform_rotation[0][1]) * t18;
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t266 = mul_add(P::splat(platform_rotation[2][2]), t13, t249);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t267 = mul_add(P::splat(base_rotation[0][0]), t125, t254);
-    let t268 = mul_add(P::splat(base_rotation[2][0]), t125, t256);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t269 = mul_add(P::splat(platform_rotation[0][2]), t13, t252);
-    let t270 = mul_add(P::splat(platform_rotation[1][2]), t13, t253);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t271 = P::splat(platform_rotation[1][1]) * t18;
-    // legs 4, 5, 6: gradient of the actuator length
-    let t272 = mul_add(P::splat(base_rotation[1][2]), t136, t255);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t273 = neg_mul_add(w(2.0), mul_sub(t238, t245, t246), t259);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t274 = t243 * t258;
-    let t275 = mul_add(t243, t243 * t244, t257);
-    // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t276 = t84 * t210;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t277 = mul_add(t151, t221, mul_add(t152, t247, t211 * t233));
-    let t278 = mul_add(t139, t221, mul_add(t140, t247, t211 * t234));
-    let t279 = mul_add(t170, t221, mul_add(t171, t247, t211 * t235));
-    // second moment of payload and platform-side leg ends
-    let t280 = t263 + parameters.payload_inertia[2][2];
-    // constant and copied elements
-    let t281 =
+    let t292 =
         P::triple([parameters.payload_com[0], parameters.payload_com[2], parameters.payload_com[0]]);
-    let t282 =
+    let t293 =
         P::triple([parameters.payload_com[1], parameters.payload_com[1], parameters.payload_com[2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t283 = t243 * t264;
-    // legs 1, 2, 3: leg inertia between joint and base speeds
-    let t284 = t82 * t216;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t285 = mul_add(P::splat(platform_rotation[0][0]), t19, t265);
-    let t286 = P::splat(platform_rotation[2][1]) * t18;
-    let t287 = mul_add(P::splat(platform_rotation[1][0]), t19, t271);
-    // legs 4, 5, 6: gradient of the actuator length
-    let t288 = mul_add(P::splat(base_rotation[0][2]), t136, t267);
-    let t289 = mul_add(P::splat(base_rotation[2][2]), t136, t268);
-    // second moment of payload and platform-side leg ends
-    let t290 = P::triple([P::lane(t203, 0), P::lane(t227, 1), P::lane(t250 + t251, 2)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t291 = neg_mul_add(w(2.0), t246, t259);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t292 = mul_add(t248, t264, t257);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t294 = t255 * t273;
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t295 = t83 * t221;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t296 = t84 * t222;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t297 = mul_add(P::splat(platform_rotation[0][0]), t18, t274);
+    let t298 = P::splat(platform_rotation[2][1]) * t12;
     // first moment of payload and platform-side leg ends
-    let t293 = mul_add(t12, t162, t19 * t149);
-    let t294 = mul_add(t9, t162, t18 * t149);
-    let t295 = mul_add(t13, t162, t20 * t149);
-    // second moment of payload and platform-side leg ends
-    let t296 = P::triple([P::lane(t203, 1), P::lane(t227, 2), P::lane(t203, 2)]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t297 = t272 * t273;
-    // mass matrix of the legs
-    let t298 = t269 * t283;
-    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t299 = neg_mul_add(t233, t284, t277);
-    let t300 = neg_mul_add(t234, t284, t278);
-    let t301 = neg_mul_add(t235, t284, t279);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t302 = mul_add(P::splat(platform_rotation[2][0]), t19, t286);
-    let t303 = mul_add(P::splat(platform_rotation[0][2]), t20, t285);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t304 = t248 * t258;
-    // mass matrix of the legs
-    let t305 = mul_sub(t269, t275, t266 * t274);
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t306 = mul_add(P::splat(platform_rotation[1][2]), t20, t287);
+    let t299 = mul_add(t13, t175, t18 * t162);
+    let t300 = mul_add(t9, t175, t12 * t162);
+    let t301 = mul_add(t19, t175, t20 * t162);
     // constant and copied elements
-    let t307 =
-        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
-    let t308 =
-        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t309 = t273 * t288;
-    let t310 = mul_add(t272, t297, t291);
-    let t311 = t289 * t297;
-    // mass matrix of the legs
-    let t312 = mul_sub(t270, t274, t298);
-    let t313 = mul_sub(t266, t283, t270 * t275);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t314 = mul_add(t180, t246, mul_add(t181, t276, t230 * t260));
-    let t315 = mul_add(t172, t246, mul_add(t173, t276, t230 * t261));
-    let t316 = mul_add(t192, t246, mul_add(t193, t276, t230 * t262));
+    let t302 =
+        P::triple([parameters.rest_length[1], parameters.rest_length[3], parameters.rest_length[5]]);
+    let t303 =
+        P::triple([parameters.axial_damping[1], parameters.axial_damping[3], parameters.axial_damping[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t304 = mul_add(P::splat(platform_rotation[1][0]), t18, t278);
     // second moment of payload and platform-side leg ends
-    let t317 = mul_add(P::splat(t280), w(0.5), t290) - t308;
-    // constant and copied elements
-    let t318 =
-        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
-    // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
-    let t319 = mul_add(t241, t258, t257);
-    // legs 4, 5, 6: leg inertia between joint and base speeds
-    let t320 = t84 * t238;
-    // legs 4, 5, 6: platform joint from the platform origin
-    let t321 = mul_add(P::splat(platform_rotation[2][2]), t20, t302);
+    let t305 = P::triple([P::lane(t210, 0), P::lane(t233, 1), P::lane(t262 + t263, 2)]);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t306 = mul_add(t260, t273, t268);
+    // mass matrix of the legs
+    let t307 = mul_add(t260, t270, t281);
+    let t308 = mul_add(t255, t270, t283);
     // second moment of payload and platform-side leg ends
-    let t322 = mul_add(t281 * t282, P::splat(parameters.payload_mass), t296) - t318;
+    let t309 = P::triple([P::lane(t210, 1), P::lane(t233, 2), P::lane(t210, 2)]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t310 = t257 * t266;
     // mass matrix of the legs
-    let t323 = mul_sub(t266, t304, t298);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t324 = t272 * t309;
-    // mass matrix of the legs
-    let t325 = t303 * t311;
-    let t326 = mul_sub(t266, t292, t270 * t283);
-    let t327 = mul_sub(t270, t304, t269 * t292);
-    // second moment of payload and platform-side leg ends
-    let t328 = mul_add(P::splat(parameters.payload_mass), t307 * t307, t317);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t329 = t289 * t309;
-    let t330 = mul_add(t289, t273 * t289, t291);
-    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t331 = neg_mul_add(t260, t320, t314);
-    let t332 = neg_mul_add(t261, t320, t315);
-    let t333 = neg_mul_add(t262, t320, t316);
-    // legs 1, 2, 3: moment about the platform origin of the leg's inertia at its joint
-    let t334 = mul_sub(t33, t301, t37 * t300);
-    let t335 = mul_sub(t37, t299, t32 * t301);
-    let t336 = mul_sub(t32, t300, t33 * t299);
-    // first moment of payload and platform-side leg ends
-    let t337 = P::triple([P::lane(t293, 0), P::lane(t294, 0), P::lane(t295, 0)]);
-    let t338 = P::triple([P::lane(t293, 1), P::lane(t294, 1), P::lane(t295, 1)]);
-    // mass matrix of the legs
-    let t339 = mul_sub(t321, t324, t325);
-    let t340 = mul_sub(t310, t321, t306 * t311);
-    let t341 = mul_sub(t306, t324, t303 * t310);
-    // first moments by platform coordinate of the payload's inertia force
-    let t342 = t100 * P::splat(P::lane(t322, 0));
-    // first moment of payload and platform-side leg ends
-    let t343 = P::triple([P::lane(t293, 2), P::lane(t294, 2), P::lane(t295, 2)]);
-    // mass matrix of the legs
-    let t344 = mul_sub(t269, t274, t266 * t319);
-    let t345 = mul_sub(t270, t319, t269 * t304);
-    let t346 = mul_add(t321, t339, mul_add(t266, t323, t270 * t305));
-    let t347 = mul_sub(t303, t330, t321 * t329);
-    // first moments by platform coordinate of the payload's inertia force
-    let t348 = mul_add(t111, P::splat(P::lane(t328, 0)), t342);
-    // mass matrix of the legs
-    let t349 = mul_sub(t306, t329, t325);
-    let t350 = mul_add(t321, t340, mul_sub(t266, t326, t270 * t313));
-    let t351 = mul_sub(t311, t321, t306 * t330);
-    let t352 = mul_add(t321, t341, mul_sub(t266, t327, t270 * t312));
-    // first moment of payload and platform-side leg ends
-    let t353 = mul_add(P::splat(parameters.payload_mass), t307, t337 + t338 + t343);
-    // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t354 = mul_add(t288, t309, t291);
-    // moment of the legs' inertia at their joints about the platform origin
-    let t355 = neg_mul_add(t45, t332, mul_add(t36, t333, t334));
-    let t356 = neg_mul_add(t39, t333, mul_add(t45, t331, t335));
-    let t357 = neg_mul_add(t36, t331, mul_add(t39, t332, t336));
-    // mass matrix of the legs
-    let t358 = mul_add(t306, t347, t346);
-    // first moments by platform coordinate of the payload's inertia force
-    let t359 = mul_add(t112, P::splat(P::lane(t322, 2)), t348);
-    // mass matrix of the legs
-    let t360 = neg_mul_add(t306, t351, t350);
-    let t361 = neg_mul_add(t306, t349, t352);
+    let t311 = t279 + t280;
+    let t312 = t276 * t294;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t313 = neg_mul_add(t242, t295, t285);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t314 = neg_mul_add(t245, t296, t286);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t315 = neg_mul_add(t243, t295, t287);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t316 = neg_mul_add(t246, t296, t288);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t317 = neg_mul_add(t244, t295, t289);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t318 = neg_mul_add(t247, t296, t290);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t319 = mul_add(P::splat(platform_rotation[2][0]), t18, t298);
     // constant and copied elements
-    let t362 =
-        P::triple([parameters.rest_length[3], parameters.rest_length[4], parameters.rest_length[5]]);
-    let t363 =
-        P::triple([parameters.axial_damping[3], parameters.axial_damping[4], parameters.axial_damping[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t364 = t100 * P::splat(P::lane(t328, 1));
-    // mass matrix of the legs
-    let t365 = mul_add(t248, t258, t324);
-    let t366 = mul_add(t243, t258, t329);
-    let t367 = t319 + t354;
-    // constant and copied elements
-    let t368 =
-        P::triple([parameters.rest_length[0], parameters.rest_length[1], parameters.rest_length[2]]);
-    let t369 =
-        P::triple([parameters.axial_damping[0], parameters.axial_damping[1], parameters.axial_damping[2]]);
-    let t370 =
-        P::triple([parameters.axial_stiffness[3], parameters.axial_stiffness[4], parameters.axial_stiffness[5]]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t371 = mul_sub(t110, P::splat(P::lane(t353, 0)), t359);
-    let t372 = mul_add(t111, P::splat(P::lane(t322, 0)), t364);
-    // mass matrix of the legs
-    let t373 = mul_add(t321, t324, mul_sub(t266, t304, t270 * t274));
-    let t374 = mul_add(t303, t347, mul_sub(t269, t305, t266 * t344));
-    let t375 = mul_sub(t303, t329, t321 * t354);
-    let t376 = mul_add(t303, t349, mul_sub(t269, t312, t266 * t345));
-    let t377 = mul_sub(t306, t354, t303 * t324);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t378 = mul_add(t136, t192, mul_add(t125, t180, t118 * t172));
-    // legs 4, 5, 6: spring and damper force along the actuator
-    let t379 = mul_add(t64 - t362, t370, t146 * t363);
+    let t320 =
+        P::triple([parameters.rest_length[0], parameters.rest_length[2], parameters.rest_length[4]]);
+    let t321 =
+        P::triple([parameters.axial_damping[0], parameters.axial_damping[2], parameters.axial_damping[4]]);
+    let t322 =
+        P::triple([parameters.axial_stiffness[1], parameters.axial_stiffness[3], parameters.axial_stiffness[5]]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t323 = mul_add(P::splat(platform_rotation[0][2]), t20, t297);
     // mass of payload and platform-side leg ends
-    let t380 = t149 + t162;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t381 = P::triple([P::lane(t355, 0), P::lane(t356, 0), P::lane(t357, 0)]);
-    let t382 = P::triple([P::lane(t355, 1), P::lane(t356, 1), P::lane(t357, 1)]);
+    let t324 = t162 + t175;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t325 = t260 * t270;
     // mass matrix of the legs
-    let t383 = t323 + t339;
-    // mass matrix M_p of the platform
-    let t384 = t326 + t340;
-    let t385 = t327 + t341;
+    let t326 = mul_sub(t276, t284, t275 * t282);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t327 = mul_add(t125, t185, mul_add(t111, t170, t101 * t156));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t328 = mul_add(t60 - t302, t322, t133 * t303);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t329 = mul_add(P::splat(platform_rotation[1][2]), t20, t304);
     // constant and copied elements
-    let t386 =
-        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[1], parameters.axial_stiffness[2]]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t387 = mul_add(t119, t170, mul_add(t105, t151, t97 * t139));
-    // legs 1, 2, 3: spring and damper force along the actuator
-    let t388 = mul_add(t59 - t368, t386, t126 * t369);
+    let t330 =
+        P::triple([parameters.payload_com[0], parameters.payload_com[1], parameters.payload_com[2]]);
+    let t331 =
+        P::triple([parameters.payload_inertia[0][0], parameters.payload_inertia[1][1], parameters.payload_inertia[2][2]]);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t332 = mul_add(t266, t310, t269);
+    let t333 = t267 * t310;
+    // mass matrix of the legs
+    let t334 = mul_sub(t277, t282, t312);
+    let t335 = mul_sub(t275, t294, t277 * t284);
+    // second moment of payload and platform-side leg ends
+    let t336 = mul_add(P::splat(t291), w(0.5), t305) - t331;
+    // constant and copied elements
+    let t337 =
+        P::triple([parameters.payload_inertia[0][1], parameters.payload_inertia[1][2], parameters.payload_inertia[0][2]]);
+    let t338 =
+        P::triple([parameters.axial_stiffness[0], parameters.axial_stiffness[2], parameters.axial_stiffness[4]]);
     // inertia force less weight, without the actuators' own shares
-    let t389 = t299 + t331;
-    let t390 = t300 + t332;
-    let t391 = t301 + t333;
-    // first moments by platform coordinate of the payload's inertia force
-    let t392 = mul_add(t112, P::splat(P::lane(t322, 1)), t372);
+    let t339 = t313 + t314;
+    let t340 = t315 + t316;
+    let t341 = t317 + t318;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t342 = mul_add(P::splat(platform_rotation[2][2]), t20, t319);
+    // second moment of payload and platform-side leg ends
+    let t343 = mul_add(t292 * t293, P::splat(parameters.payload_mass), t309) - t337;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t344 = mul_add(t267, t257 * t267, t269);
     // mass matrix of the legs
-    let t393 = neg_mul_add(t306, t329, t373);
-    let t394 = neg_mul_add(t321, t375, t374);
-    let t395 = neg_mul_add(t321, t377, t376);
-    let t396 = P::triple([P::lane(t360, 0), -P::lane(t358, 0), P::lane(t361, 0)]);
-    let t397 = P::triple([P::lane(t360, 1), -P::lane(t358, 1), P::lane(t361, 1)]);
+    let t345 = mul_sub(t275, t325, t312);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t346 = mul_add(t124, t183, mul_add(t110, t165, t100 * t152));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t347 = mul_add(t59 - t320, t338, t132 * t321);
+    // first moment of payload and platform-side leg ends
+    let t348 = P::triple([P::lane(t299, 0), P::lane(t300, 0), P::lane(t301, 0)]);
+    let t349 = P::triple([P::lane(t299, 1), P::lane(t300, 1), P::lane(t301, 1)]);
+    // mass matrix of the legs
+    let t350 = t323 * t333;
+    let t351 = mul_sub(t275, t306, t277 * t294);
+    let t352 = mul_sub(t277, t325, t276 * t306);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t353 = mul_add(t125, t186, mul_add(t111, t171, t101 * t157));
+    // second moment of payload and platform-side leg ends
+    let t354 = mul_add(P::splat(parameters.payload_mass), t330 * t330, t336);
+    // mass matrix of the legs
+    let t355 = mul_add(t255, t273, t333);
+    let t356 = P::triple([P::lane(t311, 0), P::lane(t307, 0), P::lane(t308, 0)]);
+    let t357 = P::triple([P::lane(t311, 1), P::lane(t307, 1), P::lane(t308, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t358 = mul_sub(t34, t317, t40 * t315);
+    let t359 = mul_sub(t40, t313, t36 * t317);
+    let t360 = mul_sub(t36, t315, t34 * t313);
+    // mass matrix of the legs
+    let t361 = t306 + t332;
+    // first moment of payload and platform-side leg ends
+    let t362 = P::triple([P::lane(t299, 2), P::lane(t300, 2), P::lane(t301, 2)]);
+    // mass matrix of the legs
+    let t363 = mul_sub(t281, t342, t350);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t364 = mul_add(t124, t184, mul_add(t110, t166, t100 * t153));
+    // mass matrix of the legs
+    let t365 = mul_sub(t332, t342, t329 * t333);
+    let t366 = mul_sub(t281, t329, t323 * t332);
+    let t367 = P::triple([P::lane(t311, 2), P::lane(t307, 2), P::lane(t308, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t368 = mul_add(t125, t247, mul_add(t111, t245, t101 * t246));
+    // first moments by platform coordinate of the payload's inertia force
+    let t369 = t104 * P::splat(P::lane(t343, 0));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t370 = mul_add(t259, t353, mul_sub(t229, t327, t328));
+    // mass matrix of the legs
+    let t371 = mul_sub(t276, t282, t275 * t279);
+    let t372 = mul_sub(t277, t279, t276 * t325);
+    let t373 = t356 + t357 + t367;
+    // inertia force less weight, without the actuators' own shares
+    let t374 = P::triple([P::lane(t339, 0), P::lane(t340, 0), P::lane(t341, 0)]);
+    let t375 = P::triple([P::lane(t339, 1), P::lane(t340, 1), P::lane(t341, 1)]);
+    // mass matrix of the legs
+    let t376 = mul_sub(t333, t342, t329 * t344);
+    let t377 = mul_sub(t323, t344, t283 * t342);
+    // mass of payload and platform-side leg ends
+    let t378 = P::lane(t324, 2) + (P::lane(t324, 1) + P::lane(t324, 0));
+    // first moment of payload and platform-side leg ends
+    let t379 = mul_add(P::splat(parameters.payload_mass), t330, t348 + t349 + t362);
+    // mass matrix of the legs
+    let t380 = mul_sub(t283, t329, t350);
+    let t381 = mul_add(t342, t363, mul_add(t275, t345, t277 * t326));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t382 = mul_add(t124, t244, mul_add(t110, t242, t100 * t243));
+    // first moments by platform coordinate of the payload's inertia force
+    let t383 = mul_add(t117, P::splat(P::lane(t354, 0)), t369);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t384 = mul_add(t258, t364, mul_sub(t227, t346, t347));
+    // mass matrix of the legs
+    let t385 = mul_add(t281, t342, mul_sub(t275, t325, t277 * t282));
+    let t386 = mul_add(t342, t365, mul_sub(t275, t351, t277 * t335));
+    let t387 = mul_add(t342, t366, mul_sub(t275, t352, t277 * t334));
+    let t388 = mul_sub(t283, t323, t280 * t342);
+    let t389 = mul_sub(t280, t329, t281 * t323);
+    // inertia force less weight, without the actuators' own shares
+    let t390 = P::triple([P::lane(t339, 2), P::lane(t340, 2), P::lane(t341, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t391 = neg_mul_add(t296, t368, t370);
+    // mass matrix of the legs
+    let t392 = P::lane(t355, 1) + P::lane(t355, 0);
+    // mass of payload and platform-side leg ends
+    let t393 = parameters.payload_mass + t378;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t394 = neg_mul_add(t41, t316, mul_add(t35, t318, t358));
+    let t395 = neg_mul_add(t37, t318, mul_add(t41, t314, t359));
+    let t396 = neg_mul_add(t35, t314, mul_add(t37, t316, t360));
+    // mass matrix of the legs
+    let t397 = t345 + t363;
+    let t398 = t284 + t344;
     // mass matrix M_p of the platform
-    let t398 = t344 + t375;
-    let t399 = t345 + t377;
-    let t400 = t313 + t351;
-    let t401 = t305 + t347;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t402 = mul_add(t136, t193, mul_add(t125, t181, t118 * t173));
+    let t399 = t351 + t365;
+    let t400 = t352 + t366;
+    let t401 = t335 + t376;
+    let t402 = t326 + t377;
+    // mass matrix of the legs
+    let t403 = t334 + t380;
+    let t404 = mul_add(t329, t377, t381);
     // first moments by platform coordinate of the payload's inertia force
-    let t403 = t100 * P::splat(P::lane(t322, 1));
-    // moment of the legs' inertia at their joints about the platform origin
-    let t404 = P::triple([P::lane(t355, 2), P::lane(t356, 2), P::lane(t357, 2)]);
+    let t405 = mul_add(t118, P::splat(P::lane(t343, 2)), t383);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t406 = neg_mul_add(t295, t382, t384);
     // mass matrix of the legs
-    let t405 = t312 + t349;
-    // moment of the legs' inertia at their joints about the platform origin
-    let t406 = t381 + t382 + t404;
+    let t407 = neg_mul_add(t283, t329, t385);
+    let t408 = neg_mul_add(t329, t376, t386);
+    let t409 = neg_mul_add(t329, t380, t387);
+    let t410 = P::triple([P::lane(t373, 1), P::lane(t361, 2), P::lane(t355, 2)]);
+    let t411 = P::triple([c(0.0), P::lane(t361, 1) + P::lane(t361, 0), t392]);
+    // mass matrix M_p of the platform
+    let t412 = t371 + t388;
+    let t413 = t372 + t389;
+    // inertia force less weight, without the actuators' own shares
+    let t414 = neg_mul_add(t116, P::splat(t393), t374 + t375 + t390);
+    // first moments by platform coordinate of the payload's inertia force
+    let t415 = t104 * P::splat(P::lane(t354, 1));
     // mass matrix of the legs
-    let t407 = mul_add(t243, t264, t311);
-    let t408 = P::triple([P::lane(t367, 0), P::lane(t365, 0), P::lane(t366, 0)]);
-    let t409 = P::triple([P::lane(t367, 1), P::lane(t365, 1), P::lane(t366, 1)]);
+    let t416 = t410 + t411;
+    // first moments by platform coordinate of the payload's inertia force
+    let t417 = mul_sub(t116, P::splat(P::lane(t379, 0)), t405);
+    let t418 = mul_add(t117, P::splat(P::lane(t343, 0)), t415);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t419 = mul_add(t253, t406, t254 * t391);
+    let t420 = mul_add(t260, t406, t266 * t391);
+    let t421 = mul_add(t255, t406, t267 * t391);
+    // mass matrix M_p of the platform
+    let t422 = platform_rotation[2][1] * P::lane(t379, 1);
+    // mass matrix of the legs
+    let t423 = mul_add(t323, t377, mul_sub(t276, t326, t275 * t371));
+    let t424 = mul_add(t323, t380, mul_sub(t276, t334, t275 * t372));
+    // mass matrix M_p of the platform
+    let t425 = P::triple([c(0.0), t393, c(0.0)]);
+    // inertia force less weight, without the actuators' own shares
+    let t426 = mul_add(t117, P::splat(P::lane(t379, 0)), t414);
+    // mass matrix M_p of the platform
+    let t427 = platform_rotation[1][1] * P::lane(t379, 1);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t428 = P::triple([P::lane(t255, 2), P::lane(t255, 0), P::lane(t255, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t429 = P::triple([P::lane(t253, 1), P::lane(t253, 2), P::lane(t253, 0)]);
+    // mass matrix M_p of the platform
+    let t430 = P::triple([P::lane(t399, 0), P::lane(t397, 0), P::lane(t400, 0)]);
+    let t431 = P::triple([P::lane(t399, 1), P::lane(t397, 1), P::lane(t400, 1)]);
+    // mass matrix of the legs
+    let t432 = t416 + t425;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t433 = P::triple([P::lane(t394, 0), P::lane(t395, 0), P::lane(t396, 0)]);
+    let t434 = P::triple([P::lane(t394, 1), P::lane(t395, 1), P::lane(t396, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t435 = P::triple([P::lane(t255, 1), P::lane(t255, 2), P::lane(t255, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t436 = P::triple([P::lane(t260, 2), P::lane(t260, 0), P::lane(t260, 1)]);
+    // mass matrix M_p of the platform
+    let t437 = P::triple([-P::lane(t401, 0), -P::lane(t402, 0), P::lane(t403, 0)]);
+    let t438 = P::triple([-P::lane(t401, 1), -P::lane(t402, 1), P::lane(t403, 1)]);
+    let t439 = P::mul_add(platform_rotation[2][0], P::lane(t379, 0), t422);
+    let t440 = -P::lane(t412, 0);
+    let t441 = -P::lane(t413, 0);
+    let t442 = -P::lane(t412, 1);
+    let t443 = -P::lane(t413, 1);
+    // mass of payload and platform-side leg ends
+    let t444 = P::triple([t393, c(0.0), c(0.0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t445 = mul_add(t118, P::splat(P::lane(t343, 1)), t418);
+    // mass matrix M_p of the platform
+    let t446 = P::mul_add(platform_rotation[1][0], P::lane(t379, 0), t427);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t447 = P::triple([P::lane(t253, 2), P::lane(t253, 0), P::lane(t253, 1)]);
+    // mass matrix of the legs
+    let t448 = neg_mul_add(t342, t388, t423);
+    let t449 = neg_mul_add(t342, t389, t424);
+    let t450 = P::triple([P::lane(t373, 2), P::lane(t416, 2), P::lane(t398, 2)]);
+    let t451 = P::triple([c(0.0), c(0.0), P::lane(t398, 1) + P::lane(t398, 0)]);
+    let t452 = P::triple([P::lane(t408, 0), -P::lane(t404, 0), P::lane(t409, 0)]);
+    let t453 = P::triple([P::lane(t408, 1), -P::lane(t404, 1), P::lane(t409, 1)]);
+    let t454 = P::triple([P::lane(t407, 1), t442, t443]);
+    // mass matrix M_p of the platform
+    let t455 = P::triple([P::lane(t399, 2), P::lane(t397, 2), P::lane(t400, 2)]);
+    let t456 = t373 + t444;
+    // inertia force less weight, without the actuators' own shares
+    let t457 = mul_add(t104, P::splat(P::lane(t379, 1)), t426);
+    // first moments by platform coordinate of the payload's inertia force
+    let t458 = t104 * P::splat(P::lane(t343, 1));
+    // moment of the legs' inertia at their joints about the platform origin
+    let t459 = P::triple([P::lane(t394, 2), P::lane(t395, 2), P::lane(t396, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t460 = t432 * P::splat(platform_acceleration[1]);
+    // mass matrix M_p of the platform
+    let t461 = platform_rotation[0][1] * P::lane(t379, 1);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t462 = P::triple([P::lane(t260, 1), P::lane(t260, 2), P::lane(t260, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t463 = mul_sub(t435, t447, t428 * t429);
+    // mass matrix of the legs
+    let t464 = P::triple([P::lane(t407, 0), t440, t441]) + t454;
+    // mass matrix M_p of the platform
+    let t465 = t430 + t431 + t455;
+    let t466 = P::triple([-P::lane(t401, 2), -P::lane(t402, 2), P::lane(t403, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t467 = t433 + t434 + t459;
+    // force along the actuator that balances the remaining wrench
+    let t468 = mul_sub(t428, t462, t435 * t436);
+    // mass matrix M_p of the platform
+    let t469 = -P::lane(t412, 2);
+    let t470 = -P::lane(t413, 2);
+    let t471 = t437 + t438 + t466;
+    let t472 = P::mul_add(platform_rotation[2][2], P::lane(t379, 2), t439);
     // constant and copied elements
-    let t410 =
+    let t473 =
         P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
     // mass matrix of the legs
-    let t411 = t292 + t310;
-    let t412 = P::triple([P::lane(t360, 2), -P::lane(t358, 2), P::lane(t361, 2)]);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t413 = mul_add(t119, t171, mul_add(t105, t152, t97 * t140));
+    let t474 = P::triple([P::lane(t408, 2), -P::lane(t404, 2), P::lane(t409, 2)]);
     // first moments by platform coordinate of the payload's inertia force
-    let t414 = mul_sub(t110, P::splat(P::lane(t353, 1)), t392);
-    let t415 = mul_add(t111, P::splat(P::lane(t322, 2)), t403);
-    let t416 = P::triple([P::lane(t371, 2), P::lane(t371, 0), P::lane(t371, 1)]);
+    let t475 = mul_sub(t116, P::splat(P::lane(t379, 1)), t445);
+    let t476 = mul_add(t117, P::splat(P::lane(t343, 2)), t458);
+    let t477 = P::triple([P::lane(t417, 2), P::lane(t417, 0), P::lane(t417, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t478 = P::triple([P::lane(t419, 0), P::lane(t420, 0), P::lane(t421, 0)]);
+    let t479 = P::triple([P::lane(t419, 1), P::lane(t420, 1), P::lane(t421, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t417 = P::splat(parameters.payload_com[1]) * t410;
-    // mass matrix of the legs
-    let t418 = mul_add(t306, t377, mul_sub(t270, t345, t269 * t327));
-    let t419 = t396 + t397 + t412;
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t420 = mul_add(t136, t262, mul_add(t125, t260, t118 * t261));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t421 = mul_add(t276, t402, mul_sub(t246, t378, t379));
+    let t480 = mul_add(t456, P::splat(platform_acceleration[0]), t460);
     // mass matrix M_p of the platform
-    let t422 = platform_rotation[2][1] * P::lane(t353, 1);
+    let t481 = P::mul_add(platform_rotation[1][2], P::lane(t379, 2), t446);
+    let t482 = P::mul_add(platform_rotation[0][0], P::lane(t379, 0), t461);
+    // inertia less external wrench that the actuators must balance
+    let t483 = P::splat(parameters.payload_com[1]) * t473;
     // mass matrix of the legs
-    let t423 = P::triple([P::lane(t367, 2), P::lane(t365, 2), P::lane(t366, 2)]);
-    // mass matrix M_p of the platform
-    let t424 = P::triple([P::lane(t384, 0), P::lane(t383, 0), P::lane(t385, 0)]);
-    let t425 = P::triple([P::lane(t384, 1), P::lane(t383, 1), P::lane(t385, 1)]);
-    let t426 = platform_rotation[0][1] * P::lane(t353, 1);
-    // constant and copied elements
-    let t427 =
-        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
-    // mass matrix of the legs
-    let t428 = t408 + t409 + t423;
+    let t484 = mul_add(t329, t389, mul_sub(t277, t372, t276 * t352));
+    let t485 = t452 + t453 + t474;
+    let t486 = t464 + P::triple([P::lane(t407, 2), t469, t470]);
+    let t487 = t450 + t451 + P::triple([c(0.0), c(0.0), t393]);
     // inertia force less weight, without the actuators' own shares
-    let t429 = P::triple([P::lane(t389, 0), P::lane(t390, 0), P::lane(t391, 0)]);
-    let t430 = P::triple([P::lane(t389, 1), P::lane(t390, 1), P::lane(t391, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t431 = mul_add(P::splat(parameters.payload_com[0]), t427, t417);
-    // mass matrix M_p of the platform
-    let t432 = -P::lane(t398, 0);
-    let t433 = -P::lane(t399, 0);
-    let t434 = -P::lane(t398, 1);
-    let t435 = -P::lane(t399, 1);
-    // mass of payload and platform-side leg ends
-    let t436 = P::lane(t380, 2) + (P::lane(t380, 1) + P::lane(t380, 0));
-    // mass matrix M_p of the platform
-    let t437 = platform_rotation[0][1] * P::lane(t322, 0);
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t438 = mul_add(t119, t235, mul_add(t105, t233, t97 * t234));
-    // first moments by platform coordinate of the payload's inertia force
-    let t439 = mul_add(t112, P::splat(P::lane(t328, 2)), t415);
-    // rotation of the platform seen from the base
-    let t440 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t441 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t442 = mul_add(t247, t413, mul_sub(t221, t387, t388));
-    // mass matrix M_p of the platform
-    let t443 = P::mul_add(platform_rotation[2][0], P::lane(t353, 0), t422);
-    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t444 = mul_sub(t289, t306, t272 * t321);
-    let t445 = mul_sub(t288, t321, t289 * t303);
-    let t446 = mul_sub(t272, t303, t288 * t306);
-    // mass matrix of the legs
-    let t447 = neg_mul_add(t303, t341, t418);
-    let t448 = P::lane(t395, 1) + P::lane(t395, 0);
-    let t449 = P::triple([P::lane(t393, 1), t434, t435]);
-    // mass matrix M_p of the platform
-    let t450 = P::triple([P::lane(t384, 2), P::lane(t383, 2), P::lane(t385, 2)]);
-    let t451 = P::triple([-P::lane(t400, 0), -P::lane(t401, 0), P::lane(t405, 0)]);
-    let t452 = P::triple([-P::lane(t400, 1), -P::lane(t401, 1), P::lane(t405, 1)]);
-    // moment of the inertia force about the platform origin
-    let t453 = mul_add(t440, t441, neg_mul_add(t66, t416, t406));
-    // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t454 = neg_mul_add(t320, t420, t421);
-    // mass matrix M_p of the platform
-    let t455 = platform_rotation[1][1] * P::lane(t353, 1);
-    let t456 = P::mul_add(platform_rotation[0][0], P::lane(t353, 0), t426);
-    // mass matrix of the legs
-    let t457 = P::triple([P::lane(t393, 0), t432, t433]) + t449;
-    // mass matrix M_p of the platform
-    let t458 = t424 + t425 + t450;
-    // inertia force less weight, without the actuators' own shares
-    let t459 = P::triple([P::lane(t389, 2), P::lane(t390, 2), P::lane(t391, 2)]);
-    // constant and copied elements
-    let t460 =
-        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
-    // mass matrix of the legs
-    let t461 = P::lane(t407, 1) + P::lane(t407, 0);
-    // mass matrix M_p of the platform
-    let t462 = -P::lane(t398, 2);
-    let t463 = -P::lane(t399, 2);
-    // mass of payload and platform-side leg ends
-    let t464 = parameters.payload_mass + t436;
-    // mass matrix M_p of the platform
-    let t465 = P::mul_add(platform_rotation[0][0], P::lane(t328, 0), t437);
-    // constant and copied elements
-    let t466 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t467 = mul_add(P::splat(parameters.payload_com[2]), t460, t431);
-    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t468 = mul_sub(t243, t270, t248 * t266);
-    let t469 = mul_sub(t241, t266, t243 * t269);
-    let t470 = mul_sub(t248, t269, t241 * t270);
-    // mass matrix of the legs
-    let t471 = t275 + t330;
-    let t472 = P::triple([P::lane(t419, 1), P::lane(t394, 2), P::lane(t395, 2)]);
-    let t473 = P::triple([c(0.0), P::lane(t394, 1) + P::lane(t394, 0), t448]);
-    // mass matrix M_p of the platform
-    let t474 = P::triple([-P::lane(t400, 2), -P::lane(t401, 2), P::lane(t405, 2)]);
-    let t475 = P::lane(t328, 2) + (P::lane(t328, 0) + P::lane(t328, 1));
-    let t476 = platform_rotation[0][1] * P::lane(t328, 1);
-    let t477 = P::splat(P::lane(t322, 0)) * t466;
-    // first moments by platform coordinate of the payload's inertia force
-    let t478 = mul_sub(t110, P::splat(P::lane(t353, 2)), t439);
-    let t479 = P::triple([P::lane(t414, 2), P::lane(t414, 0), P::lane(t414, 1)]);
-    // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t480 = neg_mul_add(t284, t438, t442);
-    // mass matrix M_p of the platform
-    let t481 = P::mul_add(platform_rotation[2][2], P::lane(t353, 2), t443);
-    let t482 = P::mul_add(platform_rotation[1][0], P::lane(t353, 0), t455);
-    // mass matrix of the legs
-    let t483 = t472 + t473;
-    let t484 = t457 + P::triple([P::lane(t393, 2), t462, t463]);
-    // mass matrix M_p of the platform
-    let t485 = t451 + t452 + t474;
-    let t486 = P::mul_add(platform_rotation[0][2], P::lane(t353, 2), t456);
-    // mass matrix of the legs
-    let t487 = P::triple([P::lane(t428, 1), P::lane(t411, 2), P::lane(t407, 2)]);
-    let t488 = P::triple([c(0.0), P::lane(t411, 1) + P::lane(t411, 0), t461]);
+    let t488 = mul_add(t118, P::splat(P::lane(t379, 2)), t457);
     // constant and copied elements
     let t489 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t490 = neg_mul_add(t110, P::splat(t464), t429 + t430 + t459);
-    // mass matrix of the legs
-    let t491 = t487 + t488;
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t490 = P::triple([P::lane(t419, 2), P::lane(t420, 2), P::lane(t421, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t491 = mul_add(P::splat(parameters.payload_com[0]), t489, t483);
+    // force along the actuator that balances the remaining wrench
+    let t492 = t266 * P::splat(P::lane(t463, 0));
     // mass matrix M_p of the platform
-    let t492 = P::mul_add(platform_rotation[0][2], P::lane(t322, 2), t465);
-    // constant and copied elements
-    let t493 =
-        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // mass matrix M_p of the platform
-    let t494 = P::mul_add(platform_rotation[0][0], P::lane(t322, 0), t476);
-    let t495 = mul_add(P::splat(P::lane(t328, 0)), t489, t477);
-    // constant and copied elements
-    let t496 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
-    let t497 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
-    // mass matrix M_p of the platform
-    let t498 = t419 + P::triple([t475, c(0.0), c(0.0)]);
-    let t499 = platform_rotation[0][1] * P::lane(t322, 1);
-    let t500 = P::splat(P::lane(t328, 1)) * t466;
-    let t501 = P::splat(P::lane(t322, 0)) * t493;
-    // rotation of the platform seen from the base
-    let t502 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t493 = platform_rotation[0][1] * P::lane(t343, 0);
     // first moments by platform coordinate of the payload's inertia force
-    let t503 = P::triple([P::lane(t414, 1), P::lane(t414, 2), P::lane(t414, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t504 = mul_add(t468, t480, t444 * t454);
-    let t505 = mul_add(t469, t480, t445 * t454);
-    let t506 = mul_add(t470, t480, t446 * t454);
+    let t494 = mul_add(t118, P::splat(P::lane(t354, 2)), t476);
+    // rotation of the platform seen from the base
+    let t495 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t496 = P::triple([P::lane(t417, 1), P::lane(t417, 2), P::lane(t417, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t497 = mul_add(t487, P::splat(platform_acceleration[2]), t480);
     // mass matrix M_p of the platform
-    let t507 = P::mul_add(platform_rotation[1][2], P::lane(t353, 2), t482);
+    let t498 = t481 + P::lane(t471, 0);
+    mass_matrix_p[2][3] = t498;
+    mass_matrix_p[3][2] = t498;
+    let t499 = P::mul_add(platform_rotation[0][2], P::lane(t379, 2), t482);
+    // force along the actuator that balances the remaining wrench
+    let t500 = mul_sub(t429, t436, t447 * t462);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t501 = mul_sub(t267, t329, t266 * t342);
+    let t502 = mul_sub(t254, t342, t267 * t323);
+    let t503 = mul_sub(t266, t323, t254 * t329);
+    // mass matrix of the legs
+    let t504 = neg_mul_add(t323, t366, t484);
+    let t505 = P::lane(t449, 1) + P::lane(t449, 0);
     // moment of the inertia force about the platform origin
-    let t508 = neg_mul_add(t502, t503, mul_sub(t65, t479, t453));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t509 = mul_add(t241, t480, t288 * t454);
-    let t510 = mul_add(t248, t480, t272 * t454);
-    let t511 = mul_add(t243, t480, t289 * t454);
+    let t506 = mul_add(t495, t496, neg_mul_add(t66, t477, t467));
+    // constant and copied elements
+    let t507 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t508 = -P::lane(t486, 0);
+    mass_matrix_p[0][3] = t508;
+    mass_matrix_p[3][0] = t508;
     // mass matrix M_p of the platform
-    let t512 = t486 - P::lane(t458, 2);
-    mass_matrix_p[1][5] = t512;
-    mass_matrix_p[5][1] = t512;
-    let t513 = P::triple([c(0.0), t464, c(0.0)]);
+    let t509 = -(t472 + P::lane(t465, 0));
+    mass_matrix_p[1][3] = t509;
+    mass_matrix_p[3][1] = t509;
+    // constant and copied elements
+    let t510 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t511 = mul_add(t254, P::splat(P::lane(t468, 0)), t492);
+    let t512 = P::lane(t253, 1) * P::lane(t468, 1);
+    // mass matrix M_p of the platform
+    let t513 = P::mul_add(platform_rotation[0][0], P::lane(t354, 0), t493);
     // constant and copied elements
     let t514 =
-        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    let t515 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
-    // inertia force less weight, without the actuators' own shares
-    let t516 = mul_add(t111, P::splat(P::lane(t353, 0)), t490);
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t515 = neg_mul_add(P::splat(P::lane(t488, 0)), t507, t478 + t479 + t490);
     // mass matrix of the legs
-    let t517 = t491 + t513;
-    // mass matrix M_p of the platform
-    let t518 = neg_mul_add(P::splat(t492), t514, t498);
-    let t519 = P::mul_add(platform_rotation[0][2], P::lane(t322, 1), t494);
-    let t520 = P::mul_add(platform_rotation[0][0], P::lane(t322, 2), t499);
-    let t521 = P::triple([c(0.0), t475, c(0.0)]);
-    let t522 = mul_add(P::splat(P::lane(t322, 2)), t515, t495);
-    let t523 = mul_add(P::splat(P::lane(t322, 0)), t489, t500);
-    let t524 = mul_add(P::splat(P::lane(t328, 0)), t514, t501);
-    let t525 = -(t481 + P::lane(t458, 0));
-    mass_matrix_p[1][3] = t525;
-    mass_matrix_p[3][1] = t525;
-    // constant and copied elements
-    let t526 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t516 = P::triple([t508, t509, t498]);
     // inertia less external wrench that the actuators must balance
-    let t527 = P::triple([P::lane(t467, 1), P::lane(t467, 2), P::lane(t467, 0)]);
+    let t517 = mul_add(P::splat(parameters.payload_com[2]), t510, t491);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t518 = mul_sub(t255, t277, t260 * t275);
+    let t519 = mul_sub(t253, t275, t255 * t276);
+    let t520 = mul_sub(t260, t276, t253 * t277);
     // mass matrix of the legs
-    let t528 = P::triple([P::lane(t419, 2), P::lane(t483, 2), P::lane(t447, 2)]);
-    let t529 = P::triple([c(0.0), c(0.0), P::lane(t447, 1) + P::lane(t447, 0)]);
-    let t530 = t483 + t521;
+    let t521 = P::triple([P::lane(t485, 1), P::lane(t448, 2), P::lane(t449, 2)]);
+    let t522 = P::triple([c(0.0), P::lane(t448, 1) + P::lane(t448, 0), t505]);
     // mass matrix M_p of the platform
-    let t531 = P::splat(P::lane(t322, 1)) * t466;
-    let t532 = P::splat(P::lane(t328, 1)) * t493;
+    let t523 = P::lane(t354, 2) + (P::lane(t354, 0) + P::lane(t354, 1));
+    let t524 = platform_rotation[0][1] * P::lane(t354, 1);
+    let t525 = P::splat(P::lane(t343, 0)) * t514;
     // first moments by platform coordinate of the payload's inertia force
-    let t533 = P::triple([P::lane(t478, 2), P::lane(t478, 0), P::lane(t478, 1)]);
+    let t526 = mul_sub(t116, P::splat(P::lane(t379, 2)), t494);
+    let t527 = P::triple([P::lane(t475, 2), P::lane(t475, 0), P::lane(t475, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t528 = mul_add(t516, P::splat(platform_acceleration[3]), t497);
     // mass matrix M_p of the platform
-    let t534 = t507 + P::lane(t485, 0);
-    mass_matrix_p[2][3] = t534;
-    mass_matrix_p[3][2] = t534;
-    let t535 = t481 + P::lane(t484, 1);
-    mass_matrix_p[0][4] = t535;
-    mass_matrix_p[4][0] = t535;
-    let t536 = P::lane(t485, 1) - t486;
-    mass_matrix_p[2][4] = t536;
-    mass_matrix_p[4][2] = t536;
-    let t537 = P::lane(t484, 2) - t507;
-    mass_matrix_p[0][5] = t537;
-    mass_matrix_p[5][0] = t537;
-    let t538 = P::triple([t525, P::lane(t458, 1), t512]);
-    // inertia less external wrench that the actuators must balance
-    let t539 = neg_mul_add(t526, t527, mul_add(t467, t497, t496));
-    // mass of payload and platform-side leg ends
-    let t540 = P::triple([t464, c(0.0), c(0.0)]);
-    // inertia less external wrench that the actuators must balance
-    let t541 = t538 * P::splat(platform_acceleration[1]);
+    let t529 = t472 + P::lane(t486, 1);
+    mass_matrix_p[0][4] = t529;
+    mass_matrix_p[4][0] = t529;
+    let t530 = P::lane(t471, 1) - t499;
+    mass_matrix_p[2][4] = t530;
+    mass_matrix_p[4][2] = t530;
+    let t531 = P::lane(t486, 2) - t481;
+    mass_matrix_p[0][5] = t531;
+    mass_matrix_p[5][0] = t531;
+    let t532 = t499 - P::lane(t465, 2);
+    mass_matrix_p[1][5] = t532;
+    mass_matrix_p[5][1] = t532;
     // mass matrix of the legs
-    let t542 = P::triple([P::lane(t428, 2), P::lane(t491, 2), P::lane(t471, 2)]);
-    let t543 = P::triple([c(0.0), c(0.0), P::lane(t471, 1) + P::lane(t471, 0)]);
-    // mass matrix M_p of the platform
-    let t544 = t428 + t540;
-    // constant and copied elements
-    let t545 =
-        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t546 =
-        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
-    // inertia force less weight, without the actuators' own shares
-    let t547 = mul_add(t100, P::splat(P::lane(t353, 1)), t516);
-    // inertia less external wrench that the actuators must balance
-    let t548 = t517 * P::splat(platform_acceleration[1]);
-    // mass matrix of the legs
-    let t549 = -P::lane(t484, 0);
-    mass_matrix_p[0][3] = t549;
-    mass_matrix_p[3][0] = t549;
-    let t550 = -P::lane(t485, 2);
-    mass_matrix_p[2][5] = t550;
-    mass_matrix_p[5][2] = t550;
-    // mass matrix M_p of the platform
-    let t551 = neg_mul_add(t493, P::splat(t519), t518);
-    let t552 = P::mul_add(platform_rotation[0][2], P::lane(t328, 2), t520);
-    let t553 = mul_add(P::splat(P::lane(t322, 1)), t515, t523);
-    let t554 = mul_add(P::splat(P::lane(t322, 2)), t489, t531);
-    let t555 = P::triple([c(0.0), c(0.0), t475]);
-    let t556 = mul_add(P::splat(P::lane(t322, 2)), t545, t524);
-    let t557 = mul_add(P::splat(P::lane(t322, 0)), t514, t532);
-    // mass matrix of the legs
-    let t558 = P::triple([t549, t535, t537]);
-    // mass matrix M_p of the platform
-    let t559 = P::triple([t534, t536, t550]);
-    // mass matrix of the legs
-    let t560 = t528 + t529 + t555;
-    // mass matrix M_p of the platform
-    let t561 = P::splat(P::lane(t322, 1)) * t493;
-    // rotation of the platform seen from the base
-    let t562 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
-    // first moments by platform coordinate of the payload's inertia force
-    let t563 = P::triple([P::lane(t478, 1), P::lane(t478, 2), P::lane(t478, 0)]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t564 = P::triple([P::lane(t504, 0), P::lane(t505, 0), P::lane(t506, 0)]);
-    let t565 = P::triple([P::lane(t504, 1), P::lane(t505, 1), P::lane(t506, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t566 = neg_mul_add(t559, P::splat(platform_acceleration[2]), t539);
-    // moment of the inertia force about the platform origin
-    let t567 = neg_mul_add(t562, t563, mul_add(t67, t533, t508));
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t568 = P::triple([P::lane(t509, 0), P::lane(t510, 0), P::lane(t511, 0)]);
-    let t569 = P::triple([P::lane(t509, 1), P::lane(t510, 1), P::lane(t511, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t570 = mul_add(t544, P::splat(platform_acceleration[0]), t548);
-    // mass matrix of the legs
-    let t571 = t542 + t543 + P::triple([c(0.0), c(0.0), t464]);
-    // constant and copied elements
-    let t572 =
-        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
-    // inertia force less weight, without the actuators' own shares
-    let t573 = mul_add(t112, P::splat(P::lane(t353, 2)), t547);
-    // mass matrix M_p of the platform
-    let t574 = neg_mul_add(t545, P::splat(t552), t551);
-    let t575 = neg_mul_add(t553, t572, neg_mul_add(t522, t546, t530));
-    let t576 = mul_add(P::splat(P::lane(t328, 2)), t515, t554);
-    let t577 = neg_mul_add(P::splat(platform_rotation[2][0]), t556, t560);
-    let t578 = mul_add(P::splat(P::lane(t322, 1)), t545, t557);
-    let t579 = mul_add(P::splat(P::lane(t322, 2)), t514, t561);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t580 = P::triple([P::lane(t504, 2), P::lane(t505, 2), P::lane(t506, 2)]);
-    let t581 = P::triple([P::lane(t509, 2), P::lane(t510, 2), P::lane(t511, 2)]);
-    // inertia less external wrench that the actuators must balance
-    let t582 = t566 - mul_add(t558, P::splat(platform_acceleration[0]), t541);
-    let t583 = mul_add(P::splat(platform_acceleration[2]), t571, t570);
-    // constant and copied elements
-    let t584 =
-        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
-    let t585 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
-    // mass matrix M_p of the platform
-    let t586 = neg_mul_add(t576, t584, t575);
-    let t587 = neg_mul_add(P::splat(platform_rotation[2][1]), t578, t577);
-    let t588 = mul_add(P::splat(P::lane(t328, 2)), t545, t579);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t589 = mul_add(P::splat(P::lane(t567, 0)), t585, t564 + t565 + t580);
-    // inertia less external wrench that the actuators must balance
-    let t590 = neg_mul_add(t574, P::splat(platform_acceleration[3]), t582);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t591 = neg_mul_add(t585, P::splat(P::lane(t573, 0)), t568 + t569 + t581);
-    // mass matrix of the legs
-    let t592 = P::triple([t549, t525, t534]);
-    // constant and copied elements
-    let t593 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
-    // inertia less external wrench that the actuators must balance
-    let t594 = mul_add(P::splat(platform_acceleration[3]), t592, t583);
-    // mass matrix M_p of the platform
-    let t595 = neg_mul_add(P::splat(platform_rotation[2][2]), t588, t587);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t596 = mul_add(P::splat(P::lane(t567, 1)), t593, t589);
-    // inertia less external wrench that the actuators must balance
-    let t597 = neg_mul_add(t586, P::splat(platform_acceleration[4]), t590);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t598 = mul_sub(P::splat(P::lane(t573, 1)), t593, t591);
-    // mass matrix M_p of the platform
-    let t599 = P::triple([t535, P::lane(t458, 1), t536]);
-    let t600 = P::triple([t537, t512, t550]);
-    // constant and copied elements
-    let t601 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
-    // inertia less external wrench that the actuators must balance
-    let t602 = mul_sub(t600, P::splat(platform_acceleration[5]), t601);
-    // constant and copied elements
-    let t603 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
-    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t604 = mul_add(P::splat(P::lane(t567, 2)), t603, t596);
-    let t605 = mul_add(P::splat(P::lane(t573, 2)), t603, t598);
-    // inertia less external wrench that the actuators must balance
-    let t606 = mul_add(P::splat(platform_acceleration[4]), t599, t594) + t602;
-    let t607 = neg_mul_add(t595, P::splat(platform_acceleration[5]), t597) + t604;
-    let t608 = t605 + t606;
-    let t609 = -P::lane(t607, 0);
-    let t610 = -P::lane(t607, 1);
-    let t611 = -P::lane(t607, 2);
+    let t533 = t521 + t522;
     // force along the actuator that balances the remaining wrench
-    let axial_reaction = solve_general(
+    let t534 = P::mul_add(P::lane(t253, 0), P::lane(t468, 0), t512);
+    // constant and copied elements
+    let t535 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t536 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix of the legs
+    let t537 = -P::lane(t471, 2);
+    mass_matrix_p[2][5] = t537;
+    mass_matrix_p[5][2] = t537;
+    // force along the actuator that balances the remaining wrench
+    let t538 = mul_add(t267, P::splat(P::lane(t500, 0)), t511);
+    let t539 = t266 * P::splat(P::lane(t463, 1));
+    // mass matrix M_p of the platform
+    let t540 = P::mul_add(platform_rotation[0][2], P::lane(t343, 2), t513);
+    // constant and copied elements
+    let t541 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t542 = P::mul_add(platform_rotation[0][0], P::lane(t343, 0), t524);
+    let t543 = mul_add(P::splat(P::lane(t354, 0)), t535, t525);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t544 = mul_sub(P::splat(P::lane(t488, 1)), t536, t515);
+    // mass matrix M_p of the platform
+    let t545 = P::triple([t529, P::lane(t465, 1), t530]);
+    let t546 = P::triple([t531, t532, t537]);
+    // constant and copied elements
+    let t547 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t548 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t549 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t550 = t485 + P::triple([t523, c(0.0), c(0.0)]);
+    let t551 = platform_rotation[0][1] * P::lane(t343, 1);
+    let t552 = P::splat(P::lane(t354, 1)) * t514;
+    let t553 = P::splat(P::lane(t343, 0)) * t541;
+    // rotation of the platform seen from the base
+    let t554 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t555 = P::triple([P::lane(t475, 1), P::lane(t475, 2), P::lane(t475, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t556 = mul_add(t406, t518, t391 * t501);
+    let t557 = mul_add(t406, t519, t391 * t502);
+    let t558 = mul_add(t406, t520, t391 * t503);
+    // inertia less external wrench that the actuators must balance
+    let t559 = mul_sub(t546, P::splat(platform_acceleration[5]), t547);
+    // moment of the inertia force about the platform origin
+    let t560 = neg_mul_add(t554, t555, mul_sub(t65, t527, t506));
+    // force along the actuator that balances the remaining wrench
+    let t561 = mul_add(t254, P::splat(P::lane(t468, 1)), t539);
+    let t562 = P::mul_add(P::lane(t253, 2), P::lane(t468, 2), t534);
+    // constant and copied elements
+    let t563 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t564 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t565 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t566 = t266 * P::splat(P::lane(t463, 2));
+    // mass matrix M_p of the platform
+    let t567 = neg_mul_add(P::splat(t540), t563, t550);
+    let t568 = P::mul_add(platform_rotation[0][2], P::lane(t343, 1), t542);
+    let t569 = P::mul_add(platform_rotation[0][0], P::lane(t343, 2), t551);
+    let t570 = P::triple([c(0.0), t523, c(0.0)]);
+    let t571 = mul_add(P::splat(P::lane(t343, 2)), t564, t543);
+    let t572 = mul_add(P::splat(P::lane(t343, 0)), t535, t552);
+    let t573 = mul_add(P::splat(P::lane(t354, 0)), t563, t553);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t574 = mul_add(P::splat(P::lane(t488, 2)), t565, t544);
+    // constant and copied elements
+    let t575 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t576 = P::triple([P::lane(t517, 1), P::lane(t517, 2), P::lane(t517, 0)]);
+    // mass matrix of the legs
+    let t577 = P::triple([P::lane(t485, 2), P::lane(t533, 2), P::lane(t504, 2)]);
+    let t578 = P::triple([c(0.0), c(0.0), P::lane(t504, 1) + P::lane(t504, 0)]);
+    let t579 = t533 + t570;
+    // mass matrix M_p of the platform
+    let t580 = P::splat(P::lane(t343, 1)) * t514;
+    let t581 = P::splat(P::lane(t354, 1)) * t541;
+    // first moments by platform coordinate of the payload's inertia force
+    let t582 = P::triple([P::lane(t526, 2), P::lane(t526, 0), P::lane(t526, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t583 = mul_add(t545, P::splat(platform_acceleration[4]), t528) + t559;
+    // mass matrix M_p of the platform
+    let t584 = P::triple([t509, P::lane(t465, 1), t532]);
+    // inertia less external wrench that the actuators must balance
+    let t585 = neg_mul_add(t575, t576, mul_add(t517, t549, t548));
+    let t586 = P::splat(platform_acceleration[1]) * t584;
+    // force along the actuator that balances the remaining wrench
+    let t587 = mul_add(t267, P::splat(P::lane(t500, 1)), t561);
+    let t588 = mul_add(t254, P::splat(P::lane(t468, 2)), t566);
+    let t589 = mul_sub(t502, P::splat(t562), t538 * P::splat(P::lane(t519, 0)));
+    let t590 = mul_sub(t503, P::splat(t562), t538 * P::splat(P::lane(t520, 0)));
+    // constant and copied elements
+    let t591 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t592 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t593 = neg_mul_add(t541, P::splat(t568), t567);
+    let t594 = P::mul_add(platform_rotation[0][2], P::lane(t354, 2), t569);
+    let t595 = mul_add(P::splat(P::lane(t343, 1)), t564, t572);
+    let t596 = mul_add(P::splat(P::lane(t343, 2)), t535, t580);
+    let t597 = P::triple([c(0.0), c(0.0), t523]);
+    let t598 = mul_add(P::splat(P::lane(t343, 2)), t591, t573);
+    let t599 = mul_add(P::splat(P::lane(t343, 0)), t563, t581);
+    // inertia less external wrench that the actuators must balance
+    let t600 = t574 + t583;
+    // mass matrix of the legs
+    let t601 = P::triple([t508, t529, t531]);
+    // mass matrix M_p of the platform
+    let t602 = P::triple([t498, t530, t537]);
+    // mass matrix of the legs
+    let t603 = t577 + t578 + t597;
+    // mass matrix M_p of the platform
+    let t604 = P::splat(P::lane(t343, 1)) * t541;
+    // rotation of the platform seen from the base
+    let t605 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t606 = P::triple([P::lane(t526, 1), P::lane(t526, 2), P::lane(t526, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t607 = P::triple([P::lane(t556, 0), P::lane(t557, 0), P::lane(t558, 0)]);
+    let t608 = P::triple([P::lane(t556, 1), P::lane(t557, 1), P::lane(t558, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t609 = neg_mul_add(P::splat(platform_acceleration[2]), t602, t585);
+    // moment of the inertia force about the platform origin
+    let t610 = neg_mul_add(t605, t606, mul_add(t67, t582, t560));
+    // force along the actuator that balances the remaining wrench
+    let t611 = mul_add(t267, P::splat(P::lane(t500, 2)), t588);
+    let t612 = neg_mul_add(P::splat(P::lane(t519, 1)), t587, t589);
+    let t613 = neg_mul_add(P::splat(P::lane(t520, 1)), t587, t590);
+    // constant and copied elements
+    let t614 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t615 = neg_mul_add(t591, P::splat(t594), t593);
+    let t616 = neg_mul_add(t595, t614, neg_mul_add(t571, t592, t579));
+    let t617 = mul_add(P::splat(P::lane(t354, 2)), t564, t596);
+    let t618 = neg_mul_add(P::splat(platform_rotation[2][0]), t598, t603);
+    let t619 = mul_add(P::splat(P::lane(t343, 1)), t591, t599);
+    let t620 = mul_add(P::splat(P::lane(t343, 2)), t563, t604);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t621 = P::triple([P::lane(t556, 2), P::lane(t557, 2), P::lane(t558, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t622 = t609 - mul_add(P::splat(platform_acceleration[0]), t601, t586);
+    // force along the actuator that balances the remaining wrench
+    let t623 = neg_mul_add(P::splat(P::lane(t519, 2)), t611, t612);
+    let t624 = neg_mul_add(P::splat(P::lane(t520, 2)), t611, t613);
+    // constant and copied elements
+    let t625 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t626 = t463 * P::splat(P::lane(t600, 1));
+    // mass matrix M_p of the platform
+    let t627 = neg_mul_add(t617, t625, t616);
+    let t628 = neg_mul_add(P::splat(platform_rotation[2][1]), t619, t618);
+    let t629 = mul_add(P::splat(P::lane(t354, 2)), t591, t620);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t630 = mul_add(t507, P::splat(P::lane(t610, 0)), t607 + t608 + t621);
+    // inertia less external wrench that the actuators must balance
+    let t631 = neg_mul_add(P::splat(platform_acceleration[3]), t615, t622);
+    // force along the actuator that balances the remaining wrench
+    let t632 = mul_sub(t501, P::splat(t562), t538 * P::splat(P::lane(t518, 0)));
+    let t633 = mul_add(t468, P::splat(P::lane(t600, 0)), t626);
+    // mass matrix M_p of the platform
+    let t634 = neg_mul_add(P::splat(platform_rotation[2][2]), t629, t628);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t635 = mul_add(t536, P::splat(P::lane(t610, 1)), t630);
+    // inertia less external wrench that the actuators must balance
+    let t636 = neg_mul_add(P::splat(platform_acceleration[4]), t627, t631);
+    // force along the actuator that balances the remaining wrench
+    let t637 = mul_add(t500, P::splat(P::lane(t600, 2)), t633);
+    let t638 = neg_mul_add(t587, P::splat(P::lane(t518, 1)), t632);
+    let t639 = P::triple([P::lane(t623, 2), P::lane(t623, 0), P::lane(t623, 1)]);
+    let t640 = P::triple([P::lane(t624, 1), P::lane(t624, 2), P::lane(t624, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t641 = mul_add(t565, P::splat(P::lane(t610, 2)), t635);
+    // force along the actuator that balances the remaining wrench
+    let t642 = P::triple([P::lane(t623, 1), P::lane(t623, 2), P::lane(t623, 0)]);
+    let t643 = P::triple([P::lane(t624, 2), P::lane(t624, 0), P::lane(t624, 1)]);
+    let t644 = neg_mul_add(t611, P::splat(P::lane(t518, 2)), t638);
+    let t645 = mul_sub(t642, t643, t639 * t640);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t646 = P::triple([P::lane(t518, 0), P::lane(t519, 0), P::lane(t520, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t647 = t641 + neg_mul_add(P::splat(platform_acceleration[5]), t634, t636);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t648 = P::triple([P::lane(t518, 1), P::lane(t519, 1), P::lane(t520, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t649 = mul_add(P::splat(t562), t647, P::splat(P::lane(t637, 0)) * t646);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t650 = P::triple([P::lane(t518, 2), P::lane(t519, 2), P::lane(t520, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t651 = P::lane(t644, 1) * P::lane(t645, 1);
+    let t652 = P::triple([P::lane(t644, 1), P::lane(t644, 2), P::lane(t644, 0)]);
+    let t653 = mul_add(P::splat(P::lane(t637, 1)), t648, t649);
+    let t654 = P::triple([P::lane(t644, 2), P::lane(t644, 0), P::lane(t644, 1)]);
+    let t655 = P::mul_add(P::lane(t644, 0), P::lane(t645, 0), t651);
+    let t656 = mul_add(P::splat(P::lane(t637, 2)), t650, t653);
+    let t657 = P::triple([P::lane(t538, 0), P::lane(t587, 0), P::lane(t611, 0)]);
+    let t658 = mul_sub(t639, t652, t642 * t654);
+    let t659 = c(1.0) / P::mul_add(P::lane(t644, 2), P::lane(t645, 2), t655);
+    let t660 = P::triple([P::lane(t538, 1), P::lane(t587, 1), P::lane(t611, 1)]);
+    let t661 = mul_sub(t640, t654, t643 * t652) * P::splat(P::lane(t656, 1));
+    let t662 = mul_add(t645, P::splat(P::lane(t656, 0)), t661);
+    let t663 = P::triple([P::lane(t538, 2), P::lane(t587, 2), P::lane(t611, 2)]);
+    let t664 = P::splat(t659) * mul_add(t658, P::splat(P::lane(t656, 2)), t662);
+    // inertia less external wrench that the actuators must balance
+    let t665 = -P::lane(t647, 0);
+    let t666 = -P::lane(t647, 1);
+    // force along the actuator that balances the remaining wrench
+    let t667 = -t664;
+    let t668 = mul_add(t657, P::splat(P::lane(t664, 0)), t637);
+    // inertia less external wrench that the actuators must balance
+    let t669 = -P::lane(t647, 2);
+    // force along the actuator that balances the remaining wrench
+    let t670 = mul_add(t660, P::splat(P::lane(t664, 1)), t668);
+    let t671 = mul_add(t663, P::splat(P::lane(t664, 2)), t670);
+    let t672 = P::splat(c(1.0) / t562) * t671;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t667, t672],
         &[
-            [P::lane(t241, 0), P::lane(t241, 1), P::lane(t241, 2), P::lane(t288, 0), P::lane(t288, 1), P::lane(t288, 2)],
-            [P::lane(t248, 0), P::lane(t248, 1), P::lane(t248, 2), P::lane(t272, 0), P::lane(t272, 1), P::lane(t272, 2)],
-            [P::lane(t243, 0), P::lane(t243, 1), P::lane(t243, 2), P::lane(t289, 0), P::lane(t289, 1), P::lane(t289, 2)],
-            [P::lane(t468, 0), P::lane(t468, 1), P::lane(t468, 2), P::lane(t444, 0), P::lane(t444, 1), P::lane(t444, 2)],
-            [P::lane(t469, 0), P::lane(t469, 1), P::lane(t469, 2), P::lane(t445, 0), P::lane(t445, 1), P::lane(t445, 2)],
-            [P::lane(t470, 0), P::lane(t470, 1), P::lane(t470, 2), P::lane(t446, 0), P::lane(t446, 1), P::lane(t446, 2)],
+            [t254, t253],
+            [t266, t260],
+            [t267, t255],
+            [t501, t518],
+            [t502, t519],
+            [t503, t520],
         ],
-        &[P::lane(t608, 0), P::lane(t608, 1), P::lane(t608, 2), t609, t610, t611],
+        &[P::lane(t600, 0), P::lane(t600, 1), P::lane(t600, 2), t665, t666, t669],
+        &[1, 3, 5, 0, 2, 4],
     );
     // leg 1: actuator length d
     actuator_length[0] = P::lane(t59, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t59, 1);
+    actuator_length[1] = P::lane(t60, 0);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t59, 2);
+    actuator_length[2] = P::lane(t59, 1);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t64, 0);
+    actuator_length[3] = P::lane(t60, 1);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t64, 1);
+    actuator_length[4] = P::lane(t59, 2);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t64, 2);
+    actuator_length[5] = P::lane(t60, 2);
     // leg 1: actuator velocity d'
-    actuator_velocity[0] = P::lane(t126, 0);
+    actuator_velocity[0] = P::lane(t132, 0);
     // leg 2: actuator velocity d'
-    actuator_velocity[1] = P::lane(t126, 1);
+    actuator_velocity[1] = P::lane(t133, 0);
     // leg 3: actuator velocity d'
-    actuator_velocity[2] = P::lane(t126, 2);
+    actuator_velocity[2] = P::lane(t132, 1);
     // leg 4: actuator velocity d'
-    actuator_velocity[3] = P::lane(t146, 0);
+    actuator_velocity[3] = P::lane(t133, 1);
     // leg 5: actuator velocity d'
-    actuator_velocity[4] = P::lane(t146, 1);
+    actuator_velocity[4] = P::lane(t132, 2);
     // leg 6: actuator velocity d'
-    actuator_velocity[5] = P::lane(t146, 2);
+    actuator_velocity[5] = P::lane(t133, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t241, 0);
-    jacobian_dp[0][1] = P::lane(t248, 0);
-    jacobian_dp[0][2] = P::lane(t243, 0);
+    jacobian_dp[0][0] = P::lane(t253, 0);
+    jacobian_dp[0][1] = P::lane(t260, 0);
+    jacobian_dp[0][2] = P::lane(t255, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t468, 0);
-    jacobian_dp[0][4] = P::lane(t469, 0);
-    jacobian_dp[0][5] = P::lane(t470, 0);
+    jacobian_dp[0][3] = P::lane(t518, 0);
+    jacobian_dp[0][4] = P::lane(t519, 0);
+    jacobian_dp[0][5] = P::lane(t520, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t241, 1);
-    jacobian_dp[1][1] = P::lane(t248, 1);
-    jacobian_dp[1][2] = P::lane(t243, 1);
+    jacobian_dp[1][0] = P::lane(t254, 0);
+    jacobian_dp[1][1] = P::lane(t266, 0);
+    jacobian_dp[1][2] = P::lane(t267, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t468, 1);
-    jacobian_dp[1][4] = P::lane(t469, 1);
-    jacobian_dp[1][5] = P::lane(t470, 1);
+    jacobian_dp[1][3] = P::lane(t501, 0);
+    jacobian_dp[1][4] = P::lane(t502, 0);
+    jacobian_dp[1][5] = P::lane(t503, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t241, 2);
-    jacobian_dp[2][1] = P::lane(t248, 2);
-    jacobian_dp[2][2] = P::lane(t243, 2);
+    jacobian_dp[2][0] = P::lane(t253, 1);
+    jacobian_dp[2][1] = P::lane(t260, 1);
+    jacobian_dp[2][2] = P::lane(t255, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t468, 2);
-    jacobian_dp[2][4] = P::lane(t469, 2);
-    jacobian_dp[2][5] = P::lane(t470, 2);
+    jacobian_dp[2][3] = P::lane(t518, 1);
+    jacobian_dp[2][4] = P::lane(t519, 1);
+    jacobian_dp[2][5] = P::lane(t520, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t288, 0);
-    jacobian_dp[3][1] = P::lane(t272, 0);
-    jacobian_dp[3][2] = P::lane(t289, 0);
+    jacobian_dp[3][0] = P::lane(t254, 1);
+    jacobian_dp[3][1] = P::lane(t266, 1);
+    jacobian_dp[3][2] = P::lane(t267, 1);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t444, 0);
-    jacobian_dp[3][4] = P::lane(t445, 0);
-    jacobian_dp[3][5] = P::lane(t446, 0);
+    jacobian_dp[3][3] = P::lane(t501, 1);
+    jacobian_dp[3][4] = P::lane(t502, 1);
+    jacobian_dp[3][5] = P::lane(t503, 1);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t288, 1);
-    jacobian_dp[4][1] = P::lane(t272, 1);
-    jacobian_dp[4][2] = P::lane(t289, 1);
+    jacobian_dp[4][0] = P::lane(t253, 2);
+    jacobian_dp[4][1] = P::lane(t260, 2);
+    jacobian_dp[4][2] = P::lane(t255, 2);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t444, 1);
-    jacobian_dp[4][4] = P::lane(t445, 1);
-    jacobian_dp[4][5] = P::lane(t446, 1);
+    jacobian_dp[4][3] = P::lane(t518, 2);
+    jacobian_dp[4][4] = P::lane(t519, 2);
+    jacobian_dp[4][5] = P::lane(t520, 2);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t288, 2);
-    jacobian_dp[5][1] = P::lane(t272, 2);
-    jacobian_dp[5][2] = P::lane(t289, 2);
+    jacobian_dp[5][0] = P::lane(t254, 2);
+    jacobian_dp[5][1] = P::lane(t266, 2);
+    jacobian_dp[5][2] = P::lane(t267, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t444, 2);
-    jacobian_dp[5][4] = P::lane(t445, 2);
-    jacobian_dp[5][5] = P::lane(t446, 2);
+    jacobian_dp[5][3] = P::lane(t501, 2);
+    jacobian_dp[5][4] = P::lane(t502, 2);
+    jacobian_dp[5][5] = P::lane(t503, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t544, 0);
+    mass_matrix_p[0][0] = P::lane(t456, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t428, 1);
-    mass_matrix_p[0][2] = P::lane(t428, 2);
-    mass_matrix_p[1][0] = P::lane(t428, 1);
+    mass_matrix_p[0][1] = P::lane(t373, 1);
+    mass_matrix_p[0][2] = P::lane(t373, 2);
+    mass_matrix_p[1][0] = P::lane(t373, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t517, 1);
+    mass_matrix_p[1][1] = P::lane(t432, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t491, 2);
-    mass_matrix_p[1][4] = P::lane(t458, 1);
-    mass_matrix_p[2][0] = P::lane(t428, 2);
-    mass_matrix_p[2][1] = P::lane(t491, 2);
+    mass_matrix_p[1][2] = P::lane(t416, 2);
+    mass_matrix_p[1][4] = P::lane(t465, 1);
+    mass_matrix_p[2][0] = P::lane(t373, 2);
+    mass_matrix_p[2][1] = P::lane(t416, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t571, 2);
-    mass_matrix_p[3][3] = P::lane(t574, 0);
-    mass_matrix_p[3][4] = P::lane(t574, 1);
-    mass_matrix_p[3][5] = P::lane(t574, 2);
+    mass_matrix_p[2][2] = P::lane(t487, 2);
+    mass_matrix_p[3][3] = P::lane(t615, 0);
+    mass_matrix_p[3][4] = P::lane(t615, 1);
+    mass_matrix_p[3][5] = P::lane(t615, 2);
     // mass matrix of the legs
-    mass_matrix_p[4][1] = P::lane(t458, 1);
+    mass_matrix_p[4][1] = P::lane(t465, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[4][3] = P::lane(t574, 1);
-    mass_matrix_p[4][4] = P::lane(t586, 1);
-    mass_matrix_p[4][5] = P::lane(t586, 2);
-    mass_matrix_p[5][3] = P::lane(t574, 2);
-    mass_matrix_p[5][4] = P::lane(t586, 2);
-    mass_matrix_p[5][5] = P::lane(t595, 2);
+    mass_matrix_p[4][3] = P::lane(t615, 1);
+    mass_matrix_p[4][4] = P::lane(t627, 1);
+    mass_matrix_p[4][5] = P::lane(t627, 2);
+    mass_matrix_p[5][3] = P::lane(t615, 2);
+    mass_matrix_p[5][4] = P::lane(t627, 2);
+    mass_matrix_p[5][5] = P::lane(t634, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t605, 0);
-    total_bias[1] = P::lane(t605, 1);
-    total_bias[2] = P::lane(t605, 2);
-    total_bias[3] = -P::lane(t604, 0);
-    total_bias[4] = -P::lane(t604, 1);
-    total_bias[5] = -P::lane(t604, 2);
+    total_bias[0] = P::lane(t574, 0);
+    total_bias[1] = P::lane(t574, 1);
+    total_bias[2] = P::lane(t574, 2);
+    total_bias[3] = -P::lane(t641, 0);
+    total_bias[4] = -P::lane(t641, 1);
+    total_bias[5] = -P::lane(t641, 2);
     // force along the actuator that balances the remaining wrench
     inverse_dynamics[0] = axial_reaction[0];
     inverse_dynamics[1] = axial_reaction[1];
@@ -30725,4 +32596,5500 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     forward_dynamics[3] = P::lane(t548, 0);
     forward_dynamics[4] = P::lane(t548, 1);
     forward_dynamics[5] = P::lane(t548, 2);
+}
+
+/// What follows from the parameters alone, for \`matrices\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 25x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 25],
+) {
+    let c = T::constant;
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t1 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t1;
+    let t2 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[12][1] = t2;
+    let t3 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][2] = t3;
+    prepared[12][3] = t3;
+    // second moment of payload and platform-side leg ends
+    let t4 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t5 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t6 = t5 + parameters.payload_inertia[2][2];
+    prepared[24][0] = t6;
+    let t7 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t8 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t9 = mul_add(t7, parameters.upper_mass[2], t8 * parameters.upper_mass[5]);
+    let t10 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t11 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t12 = mul_add(t10, parameters.upper_mass[0], t11 * parameters.upper_mass[3]);
+    let t13 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t14 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t15 = mul_add(t13, parameters.upper_mass[1], t14 * parameters.upper_mass[4]);
+    let t16 = mul_add(t6, c(0.5), t9 + (t12 + t15));
+    let t17 = t16 - parameters.payload_inertia[0][0];
+    let t18 = mul_add(t4, parameters.payload_mass, t17);
+    prepared[18][0] = t18;
+    let t19 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t20 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t21 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t22 = mul_add(parameters.upper_mass[2], t20, parameters.upper_mass[5] * t21);
+    let t23 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t24 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t25 = mul_add(parameters.upper_mass[0], t23, parameters.upper_mass[3] * t24);
+    let t26 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t27 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t28 = mul_add(parameters.upper_mass[1], t26, parameters.upper_mass[4] * t27);
+    let t29 = mul_add(t6, c(0.5), t22 + (t25 + t28));
+    let t30 = t29 - parameters.payload_inertia[1][1];
+    let t31 = mul_add(t19, parameters.payload_mass, t30);
+    prepared[18][1] = t31;
+    let t32 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t33 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t34 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t35 = mul_add(parameters.upper_mass[2], t33, parameters.upper_mass[5] * t34);
+    let t36 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t37 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t38 = mul_add(parameters.upper_mass[0], t36, parameters.upper_mass[3] * t37);
+    let t39 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t40 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t41 = mul_add(parameters.upper_mass[1], t39, parameters.upper_mass[4] * t40);
+    let t42 = mul_add(t6, c(0.5), t35 + (t38 + t41));
+    let t43 = t42 - parameters.payload_inertia[2][2];
+    let t44 = mul_add(t32, parameters.payload_mass, t43);
+    prepared[18][2] = t44;
+    prepared[18][3] = t44;
+    let t45 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t46 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t47 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t48 = mul_add(t46, parameters.upper_mass[2], t47 * parameters.upper_mass[5]);
+    let t49 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t50 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t51 = mul_add(t49, parameters.upper_mass[0], t50 * parameters.upper_mass[3]);
+    let t52 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t53 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t54 = mul_add(t52, parameters.upper_mass[1], t53 * parameters.upper_mass[4]);
+    let t55 = mul_add(t45, parameters.payload_mass, t48 + (t51 + t54));
+    prepared[19][0] = t55 - parameters.payload_inertia[0][1];
+    let t56 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t57 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t58 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t59 = mul_add(parameters.upper_mass[2], t57, parameters.upper_mass[5] * t58);
+    let t60 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t61 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t62 = mul_add(parameters.upper_mass[0], t60, parameters.upper_mass[3] * t61);
+    let t63 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t64 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t65 = mul_add(parameters.upper_mass[1], t63, parameters.upper_mass[4] * t64);
+    let t66 = mul_add(t56, parameters.payload_mass, t59 + (t62 + t65));
+    prepared[19][1] = t66 - parameters.payload_inertia[1][2];
+    let t67 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t68 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t69 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t70 = mul_add(t68, parameters.upper_mass[2], t69 * parameters.upper_mass[5]);
+    let t71 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t72 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t73 = mul_add(t71, parameters.upper_mass[0], t72 * parameters.upper_mass[3]);
+    let t74 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t75 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t76 = mul_add(t74, parameters.upper_mass[1], t75 * parameters.upper_mass[4]);
+    let t77 = mul_add(t67, parameters.payload_mass, t70 + (t73 + t76));
+    let t78 = t77 - parameters.payload_inertia[0][2];
+    prepared[19][2] = t78;
+    prepared[19][3] = t78;
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t79 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[14][2] = t79;
+    prepared[14][3] = t79;
+    let t80 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[14][0] = t80;
+    let t81 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[14][1] = t81;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t82 = mul_add(parameters.lower_com_distance[0], t1, parameters.lower_inertia[0]);
+    let t83 = t82 + parameters.upper_inertia[0];
+    prepared[15][0] = mul_add(parameters.upper_com_distance[0], t80, t83);
+    let t84 = mul_add(parameters.lower_com_distance[1], t2, parameters.lower_inertia[1]);
+    let t85 = t84 + parameters.upper_inertia[1];
+    prepared[15][1] = mul_add(parameters.upper_com_distance[1], t81, t85);
+    let t86 = mul_add(parameters.lower_com_distance[2], t3, parameters.lower_inertia[2]);
+    let t87 = t86 + parameters.upper_inertia[2];
+    let t88 = mul_add(parameters.upper_com_distance[2], t79, t87);
+    prepared[15][2] = t88;
+    prepared[15][3] = t88;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t89 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[13][0] = t89;
+    let t90 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[13][1] = t90;
+    let t91 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[13][2] = t91;
+    prepared[13][3] = t91;
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t92 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[16][2] = t92;
+    prepared[16][3] = t92;
+    let t93 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[16][0] = t93;
+    let t94 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[16][1] = t94;
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t95 = mul_add(parameters.lower_com_distance[3], t89, parameters.lower_inertia[3]);
+    let t96 = t95 + parameters.upper_inertia[3];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[3], t93, t96);
+    let t97 = mul_add(parameters.lower_com_distance[4], t90, parameters.lower_inertia[4]);
+    let t98 = t97 + parameters.upper_inertia[4];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[4], t94, t98);
+    let t99 = mul_add(parameters.lower_com_distance[5], t91, parameters.lower_inertia[5]);
+    let t100 = t99 + parameters.upper_inertia[5];
+    let t101 = mul_add(parameters.upper_com_distance[5], t92, t100);
+    prepared[17][2] = t101;
+    prepared[17][3] = t101;
+    // first moment of payload and platform-side leg ends
+    let t102 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t103 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t102);
+    let t104 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t105 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t104);
+    let t106 = parameters.platform_point[4][0] * parameters.upper_mass[4];
+    let t107 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t106);
+    let t108 = t103 + (t105 + t107);
+    prepared[20][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t110 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t109);
+    let t111 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t112 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t111);
+    let t113 = parameters.platform_point[4][1] * parameters.upper_mass[4];
+    let t114 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t113);
+    let t115 = t110 + (t112 + t114);
+    prepared[20][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t115);
+    let t116 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t117 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t116);
+    let t118 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t119 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t118);
+    let t120 = parameters.platform_point[4][2] * parameters.upper_mass[4];
+    let t121 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t120);
+    let t122 = t117 + (t119 + t121);
+    let t123 = mul_add(parameters.payload_com[2], parameters.payload_mass, t122);
+    prepared[20][2] = t123;
+    prepared[20][3] = t123;
+    // mass of payload and platform-side leg ends
+    let t124 = parameters.upper_mass[4] + parameters.upper_mass[1];
+    let t125 = parameters.upper_mass[3] + parameters.upper_mass[0] + t124;
+    let t126 = parameters.upper_mass[5] + parameters.upper_mass[2] + t125;
+    let t127 = parameters.payload_mass + t126;
+    prepared[21][1] = t127;
+    prepared[22][2] = t127;
+    prepared[22][3] = t127;
+    prepared[23][0] = t127;
+    // mass matrix M_p of the platform
+    let t128 = t44 + (t18 + t31);
+    prepared[24][1] = t128;
+    prepared[24][2] = t128;
+    prepared[24][3] = t128;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[3][2];
+    prepared[5][1] = parameters.platform_point[4][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[1][1];
+    prepared[6][2] = parameters.base_point[2][1];
+    prepared[6][3] = parameters.base_point[2][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[1][0];
+    prepared[7][2] = parameters.base_point[2][0];
+    prepared[7][3] = parameters.base_point[2][0];
+    prepared[8][0] = parameters.base_point[3][1];
+    prepared[8][1] = parameters.base_point[4][1];
+    prepared[8][2] = parameters.base_point[5][1];
+    prepared[8][3] = parameters.base_point[5][1];
+    prepared[9][0] = parameters.base_point[0][2];
+    prepared[9][1] = parameters.base_point[1][2];
+    prepared[9][2] = parameters.base_point[2][2];
+    prepared[9][3] = parameters.base_point[2][2];
+    prepared[10][0] = parameters.base_point[3][0];
+    prepared[10][1] = parameters.base_point[4][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[21][0] = c(0.0);
+    prepared[21][2] = c(0.0);
+    prepared[21][3] = c(0.0);
+    prepared[22][0] = c(0.0);
+    prepared[22][1] = c(0.0);
+    prepared[23][1] = c(0.0);
+    prepared[23][2] = c(0.0);
+    prepared[23][3] = c(0.0);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `prepared`: 25x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 25],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t184, t186, t188, t233, t234, t235, t664, t665, t666, t677, t678, t679, t863, t864, t865,
+        t866, t867, t868, t869, t870, t871, t872, t873, t874, t875, t876, t877, t878, t879, t880,
+        t882, t883, t884, t885, t886, t887, t888, t889, t890, t896, t897, t898,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+        // rotation of the platform seen from the base
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
+        // constant and copied elements
+        let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // rotation of the platform seen from the base
+        let t6 = t1 * P::splat(platform_rotation[1][2]);
+        // platform origin seen from the base
+        let t7 = platform_position[1] - base_position[1];
+        let t8 = platform_position[0] - base_position[0];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 = P::load(&prepared[0]);
+        // rotation of the platform seen from the base
+        let t12 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+        // platform origin seen from the base
+        let t13 = platform_position[2] - base_position[2];
+        // constant and copied elements
+        let t14 = P::load(&prepared[1]);
+        let t15 = P::load(&prepared[2]);
+        // rotation of the platform seen from the base
+        let t16 = mul_add(t5, P::splat(platform_rotation[2][1]), t9);
+        let t17 = mul_add(t5, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t18 = mul_add(t2, P::splat(t8), t1 * P::splat(t7));
+        // rotation of the platform seen from the base
+        let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t12);
+        // constant and copied elements
+        let t20 = P::load(&prepared[3]);
+        let t21 = P::load(&prepared[4]);
+        let t22 = P::load(&prepared[5]);
+        let t23 = P::load(&prepared[6]);
+        // platform origin seen from the base
+        let t24 = mul_add(t5, P::splat(t13), t18);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t25 = t11 * P::splat(P::lane(t16, 0));
+        let t26 = t11 * P::splat(P::lane(t16, 1));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t27 = t20 * P::splat(P::lane(t16, 1));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t28 = mul_add(t14, P::splat(P::lane(t17, 0)), t25);
+        let t29 = t11 * P::splat(P::lane(t16, 2));
+        let t30 = mul_add(t14, P::splat(P::lane(t17, 1)), t26);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t31 = t20 * P::splat(P::lane(t16, 0));
+        let t32 = mul_add(t21, P::splat(P::lane(t17, 1)), t27);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t33 = mul_add(t14, P::splat(P::lane(t17, 2)), t29);
+        let t34 = mul_add(t15, P::splat(P::lane(t19, 0)), t28);
+        let t35 = mul_add(t15, P::splat(P::lane(t19, 1)), t30);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t36 = mul_add(t21, P::splat(P::lane(t17, 0)), t31);
+        let t37 = t20 * P::splat(P::lane(t16, 2));
+        let t38 = mul_add(t22, P::splat(P::lane(t19, 1)), t32);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t39 = mul_add(t15, P::splat(P::lane(t19, 2)), t33);
+        // constant and copied elements
+        let t40 = P::load(&prepared[7]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t41 = mul_add(t22, P::splat(P::lane(t19, 0)), t36);
+        let t42 = mul_add(t21, P::splat(P::lane(t17, 2)), t37);
+        // legs 1, 2, 3: platform joint from the base point
+        let t43 = t34 + P::splat(P::lane(t24, 0)) - t40;
+        let t44 = P::splat(P::lane(t24, 1)) + t35 - t23;
+        // constant and copied elements
+        let t45 = P::load(&prepared[8]);
+        let t46 = P::load(&prepared[9]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t47 = mul_add(t22, P::splat(P::lane(t19, 2)), t42);
+        // legs 4, 5, 6: platform joint from the base point
+        let t48 = P::splat(P::lane(t24, 1)) + t38 - t45;
+        // legs 1, 2, 3: platform joint from the base point
+        let t49 = P::splat(P::lane(t24, 2)) + t39 - t46;
+        // constant and copied elements
+        let t50 = P::load(&prepared[10]);
+        let t51 = P::load(&prepared[11]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t52 = P::splat(P::lane(t24, 0)) + t41 - t50;
+        // angular velocity of the base
+        let t53 = t1 * P::splat(base_velocity[4]);
+        // velocity of the platform origin relative to the base
+        let t54 = platform_velocity[1] - base_velocity[1];
+        let t55 = platform_velocity[0] - base_velocity[0];
+        let t56 = platform_velocity[2] - base_velocity[2];
+        // legs 4, 5, 6: platform joint from the base point
+        let t57 = P::splat(P::lane(t24, 2)) + t47 - t51;
+        // angular velocity of the base
+        let t58 = mul_add(t2, P::splat(base_velocity[3]), t53);
+        // angular velocity of the platform
+        let t59 = t1 * P::splat(platform_velocity[4]);
+        // platform origin seen from the base
+        let t60 = P::triple([P::lane(t24, 2), P::lane(t24, 0), P::lane(t24, 1)]);
+        let t61 = P::triple([P::lane(t24, 1), P::lane(t24, 2), P::lane(t24, 0)]);
+        // legs 1, 2, 3: actuator length d
+        let t62 = sqrt(mul_add(t49, t49, mul_add(t43, t43, t44 * t44)));
+        // angular velocity of the base
+        let t63 = mul_add(t5, P::splat(base_velocity[5]), t58);
+        // velocity of the platform origin relative to the base
+        let t64 = mul_add(t2, P::splat(t55), t1 * P::splat(t54));
+        // angular velocity of the platform
+        let t65 = mul_add(t2, P::splat(platform_velocity[3]), t59);
+        // legs 4, 5, 6: actuator length d
+        let t66 = sqrt(mul_add(t57, t57, mul_add(t52, t52, t48 * t48)));
+        // legs 1, 2, 3: first moment of the lower part about the base joint
+        let t67 = P::load(&prepared[12]);
+        // angular velocity of the platform
+        let t68 = mul_add(t5, P::splat(platform_velocity[5]), t65);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t69 = P::splat(platform_rotation[0][1]) * t11;
+        let t70 = P::splat(platform_rotation[1][1]) * t11;
+        // angular velocity of the base
+        let t71 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+        let t72 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+        // velocity of the platform origin relative to the base
+        let t73 = neg_mul_add(t60, t71, mul_add(t5, P::splat(t56), t64));
+        // angular velocity of the platform relative to the base
+        let t74 = t63 - t68;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t75 = P::splat(base_rotation[1][1]) * t23;
+        let t76 = P::splat(base_rotation[0][1]) * t23;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t77 = P::splat(platform_rotation[2][1]) * t11;
+        // velocity of the platform origin relative to the base
+        let t78 = mul_add(t61, t72, t73);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t79 = P::splat(base_rotation[2][1]) * t23;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t80 = neg_mul_add(t39, P::splat(P::lane(t74, 1)), P::splat(P::lane(t78, 0)));
+        // legs 1, 2, 3: reciprocal of the actuator length
+        let t81 = w(1.0) / t62;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t82 = neg_mul_add(t47, P::splat(P::lane(t74, 1)), P::splat(P::lane(t78, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t83 = neg_mul_add(t34, P::splat(P::lane(t74, 2)), P::splat(P::lane(t78, 1)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t84 = neg_mul_add(t41, P::splat(P::lane(t74, 2)), P::splat(P::lane(t78, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t85 = neg_mul_add(t35, P::splat(P::lane(t74, 0)), P::splat(P::lane(t78, 2)));
+        // legs 4, 5, 6: reciprocal of the actuator length
+        let t86 = w(1.0) / t66;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t87 = neg_mul_add(t38, P::splat(P::lane(t74, 0)), P::splat(P::lane(t78, 2)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t88 = mul_add(t35, P::splat(P::lane(t74, 2)), t80);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t89 = mul_add(P::splat(platform_rotation[0][0]), t14, t69);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t90 = mul_add(t38, P::splat(P::lane(t74, 2)), t82);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t91 = mul_add(t39, P::splat(P::lane(t74, 0)), t83);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t92 = mul_add(t47, P::splat(P::lane(t74, 0)), t84);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t93 = mul_add(t34, P::splat(P::lane(t74, 1)), t85);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t94 = mul_add(P::splat(platform_rotation[1][0]), t14, t70);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t95 = mul_add(t41, P::splat(P::lane(t74, 1)), t87);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t96 = mul_add(t49, P::splat(P::lane(t63, 1)), t88);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t97 = mul_add(t57, P::splat(P::lane(t63, 1)), t90);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t98 = mul_add(t43, P::splat(P::lane(t63, 2)), t91);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t99 = mul_add(t52, P::splat(P::lane(t63, 2)), t92);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t100 = mul_add(t44, P::splat(P::lane(t63, 0)), t93);
+        let t101 = neg_mul_add(t44, P::splat(P::lane(t63, 2)), t96);
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t102 = t44 * t81;
+        let t103 = t43 * t81;
+        let t104 = t49 * t81;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t105 = neg_mul_add(t49, P::splat(P::lane(t63, 0)), t98);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t106 = neg_mul_add(t57, P::splat(P::lane(t63, 0)), t99);
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t107 = t48 * t86;
+        let t108 = t52 * t86;
+        let t109 = t57 * t86;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t110 = neg_mul_add(t43, P::splat(P::lane(t63, 1)), t100);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t111 = mul_add(P::splat(base_rotation[1][0]), t40, t75);
+        let t112 = mul_add(P::splat(base_rotation[0][0]), t40, t76);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t113 = mul_add(P::splat(platform_rotation[2][0]), t14, t77);
+        // legs 4, 5, 6: first moment of the lower part about the base joint
+        let t114 = P::load(&prepared[13]);
+        // legs 1, 2, 3: first moment of the upper part about the platform joint
+        let t115 = P::load(&prepared[14]);
+        // legs 1, 2, 3: actuator velocity d'
+        let t116 = mul_add(t93, t104, mul_add(t88, t103, t91 * t102));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t117 = mul_add(P::splat(base_rotation[2][0]), t40, t79);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t118 = neg_mul_add(t48, P::splat(P::lane(t63, 2)), t97);
+        // legs 4, 5, 6: actuator velocity d'
+        let t119 = mul_add(t95, t109, mul_add(t90, t108, t92 * t107));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t120 = mul_add(t48, P::splat(P::lane(t63, 0)), t95);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t121 = mul_add(P::splat(platform_rotation[0][2]), t15, t89);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t122 = P::splat(platform_rotation[0][1]) * t20;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t123 = t81 * neg_mul_add(t102, t116, t105);
+        let t124 = t81 * neg_mul_add(t103, t116, t101);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t125 = mul_add(P::splat(platform_rotation[1][2]), t15, t94);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t126 = P::splat(platform_rotation[1][1]) * t20;
+        // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+        let t127 = P::load(&prepared[15]);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t128 = P::splat(base_rotation[0][1]) * t123;
+        let t129 = P::splat(base_rotation[1][1]) * t123;
+        let t130 = P::splat(base_rotation[2][1]) * t123;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t131 = mul_add(P::splat(base_rotation[1][2]), t46, t111);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t132 = P::splat(base_rotation[1][1]) * t45;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t133 = mul_add(P::splat(base_rotation[0][2]), t46, t112);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t134 = P::splat(base_rotation[0][1]) * t45;
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t135 = mul_add(P::splat(platform_rotation[2][2]), t15, t113);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t136 = P::splat(platform_rotation[2][1]) * t20;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t137 = P::splat(base_rotation[0][1]) * t102;
+        let t138 = P::splat(base_rotation[1][1]) * t102;
+        let t139 = P::splat(base_rotation[2][1]) * t102;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t140 = t81 * t81;
+        let t141 = t81 * t115;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t142 = mul_add(P::splat(base_rotation[2][2]), t46, t117);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t143 = P::splat(base_rotation[2][1]) * t45;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t144 = neg_mul_add(t52, P::splat(P::lane(t63, 1)), t120);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t145 = mul_add(P::splat(base_rotation[0][0]), t124, t128);
+        let t146 = mul_add(P::splat(base_rotation[1][0]), t124, t129);
+        let t147 = mul_add(P::splat(base_rotation[2][0]), t124, t130);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t148 = mul_add(P::splat(platform_rotation[0][0]), t21, t122);
+        let t149 = mul_add(P::splat(platform_rotation[1][0]), t21, t126);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t150 = mul_add(P::splat(base_rotation[1][0]), t50, t132);
+        let t151 = mul_add(P::splat(base_rotation[0][0]), t50, t134);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t152 = t86 * neg_mul_add(t107, t119, t106);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t153 = t81 * neg_mul_add(t104, t116, t110);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t154 = t81 * (t81 * t116);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t155 = mul_add(P::splat(platform_rotation[2][0]), t21, t136);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t156 = mul_add(P::splat(base_rotation[0][0]), t103, t137);
+        let t157 = mul_add(P::splat(base_rotation[1][0]), t103, t138);
+        let t158 = mul_add(P::splat(base_rotation[2][0]), t103, t139);
+        // legs 4, 5, 6: first moment of the upper part about the platform joint
+        let t159 = P::load(&prepared[16]);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t160 = mul_sub(t127, t140, t141);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t161 = mul_add(P::splat(base_rotation[2][0]), t50, t143);
+        // legs 1, 2, 3: rate of the platform lever
+        let t162 = P::splat(platform_velocity[5]) * t125;
+        let t163 = P::splat(platform_velocity[4]) * t121;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t164 = P::splat(base_velocity[4]) * t133;
+        let t165 = P::splat(base_velocity[5]) * t131;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t166 = t127 * t140;
+        // legs 1, 2, 3: rate of the platform lever
+        let t167 = P::splat(platform_velocity[3]) * t135;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t168 = P::splat(base_velocity[3]) * t142;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t169 = t86 * neg_mul_add(t108, t119, t118);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t170 = mul_add(P::splat(base_rotation[0][2]), t153, t145);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t171 = P::splat(base_rotation[0][1]) * t152;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t172 = mul_add(P::splat(base_rotation[1][2]), t153, t146);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t173 = P::splat(base_rotation[1][1]) * t152;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t174 = mul_add(P::splat(base_rotation[2][2]), t153, t147);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t175 = P::splat(base_rotation[2][1]) * t152;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t176 = mul_add(P::splat(platform_rotation[0][2]), t22, t148);
+        let t177 = mul_add(P::splat(platform_rotation[1][2]), t22, t149);
+        // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+        let t178 = P::load(&prepared[17]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t179 = mul_add(P::splat(base_rotation[1][2]), t51, t150);
+        let t180 = mul_add(P::splat(base_rotation[0][2]), t51, t151);
+        // legs 1, 2, 3: rate of the platform lever
+        let t181 = mul_sub(P::splat(platform_velocity[4]), t135, t162);
+        let t182 = mul_sub(P::splat(platform_velocity[3]), t125, t163);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t183 = mul_add(P::splat(platform_rotation[2][2]), t22, t155);
+        // legs 1, 2, 3: gradient of the actuator length
+        let t184 = mul_add(P::splat(base_rotation[0][2]), t104, t156);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t185 = P::splat(base_rotation[0][1]) * t107;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t186 = mul_add(P::splat(base_rotation[1][2]), t104, t157);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t187 = P::splat(base_rotation[1][1]) * t107;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t188 = mul_add(P::splat(base_rotation[2][2]), t104, t158);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t189 = P::splat(base_rotation[2][1]) * t107;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t190 = neg_mul_add(t160, w(2.0), t166);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t191 = t86 * t86;
+        let t192 = t86 * t159;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t193 = t67 * t81;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t194 = mul_add(P::splat(base_rotation[2][2]), t51, t161);
+        // legs 1, 2, 3: rate of the platform lever
+        let t195 = mul_sub(P::splat(platform_velocity[5]), t121, t167);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t196 = mul_add(P::splat(base_rotation[0][0]), t169, t171);
+        let t197 = mul_add(P::splat(base_rotation[1][0]), t169, t173);
+        let t198 = mul_add(P::splat(base_rotation[2][0]), t169, t175);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t199 = mul_sub(t127, t81 * t154, t115 * t154);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t200 = t86 * neg_mul_add(t109, t119, t144);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t201 = t86 * (t86 * t119);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t202 = mul_add(P::splat(base_rotation[0][0]), t108, t185);
+        let t203 = mul_add(P::splat(base_rotation[1][0]), t108, t187);
+        let t204 = mul_add(P::splat(base_rotation[2][0]), t108, t189);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t205 = neg_mul_add(t141, w(2.0), t166);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t206 = mul_sub(t178, t191, t192);
+        // legs 4, 5, 6: rate of the platform lever
+        let t207 = P::splat(platform_velocity[5]) * t177;
+        let t208 = P::splat(platform_velocity[4]) * t176;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t209 = P::splat(t55) + t181;
+        let t210 = P::splat(t56) + t182;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t211 = mul_sub(P::splat(base_velocity[3]), t131, t164) * t193;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t212 = P::splat(base_velocity[4]) * t180;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t213 = mul_sub(P::splat(base_velocity[4]), t142, t165) * t193;
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t214 = P::splat(base_velocity[5]) * t179;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t215 = t184 * t190;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t216 = t178 * t191;
+        // legs 4, 5, 6: rate of the platform lever
+        let t217 = P::splat(platform_velocity[3]) * t183;
+        // legs 1, 2, 3: velocity of the platform joint less that of the base origin
+        let t218 = P::splat(t54) + t195;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t219 = t141 * t184;
+        let t220 = t141 * t186;
+        let t221 = t141 * t188;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t222 = t193 * mul_sub(P::splat(base_velocity[5]), t133, t168);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t223 = P::splat(base_velocity[3]) * t194;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t224 = t186 * t190;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t225 = mul_add(P::splat(base_rotation[0][2]), t200, t196);
+        let t226 = mul_add(P::splat(base_rotation[1][2]), t200, t197);
+        let t227 = mul_add(P::splat(base_rotation[2][2]), t200, t198);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t228 = mul_sub(t184, t199, t160 * t170);
+        let t229 = mul_sub(t186, t199, t160 * t172);
+        let t230 = mul_sub(t188, t199, t160 * t174);
+        // legs 4, 5, 6: rate of the platform lever
+        let t231 = mul_sub(P::splat(platform_velocity[4]), t183, t207);
+        let t232 = mul_sub(P::splat(platform_velocity[3]), t177, t208);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t233 = mul_add(P::splat(base_rotation[0][2]), t109, t202);
+        let t234 = mul_add(P::splat(base_rotation[1][2]), t109, t203);
+        let t235 = mul_add(P::splat(base_rotation[2][2]), t109, t204);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t236 = neg_mul_add(w(2.0), t206, t216);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t237 = t188 * t215;
+        let t238 = mul_add(t188, t188 * t190, t205);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t239 = t86 * t114;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t240 = t81 * t127;
+        // legs 4, 5, 6: rate of the platform lever
+        let t241 = mul_sub(P::splat(platform_velocity[5]), t176, t217);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t242 = t188 * t224;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t243 = mul_sub(t178, t86 * t201, t159 * t201);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t244 = neg_mul_add(w(2.0), t192, t216);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t245 = mul_add(t186, t224, t205);
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t246 = P::splat(t55) + t231;
+        let t247 = P::splat(t56) + t232;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t248 = neg_mul_add(t174, t240, mul_sub(t141, t210, t211));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t249 = mul_sub(P::splat(base_velocity[3]), t179, t212) * t239;
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t250 = neg_mul_add(t170, t240, mul_sub(t141, t209, t213));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t251 = mul_sub(P::splat(base_velocity[4]), t194, t214) * t239;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t252 = P::splat(t8) + t121;
+        let t253 = P::splat(t13) + t135;
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t254 = mul_add(t184, t215, t205);
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t255 = t234 * t236;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t256 = t142 * t193;
+        let t257 = t133 * t193;
+        // mass matrix of the legs
+        let t258 = t121 * t242;
+        // legs 4, 5, 6: velocity of the platform joint less that of the base origin
+        let t259 = P::splat(t54) + t241;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t260 = neg_mul_add(t184, t228, neg_mul_add(t170, t219, t199));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t261 = t192 * t233;
+        let t262 = t192 * t234;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t263 = neg_mul_add(t186, t229, neg_mul_add(t172, t220, t199));
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t264 = t192 * t235;
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t265 = neg_mul_add(t188, t230, neg_mul_add(t174, t221, t199));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t266 = neg_mul_add(t172, t240, mul_sub(t141, t218, t222));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t267 = t239 * mul_sub(P::splat(base_velocity[5]), t180, t223);
+        // legs 1, 2, 3: platform joint from the base origin
+        let t268 = P::splat(t7) + t125;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t269 = t131 * t193;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t270 = mul_sub(t233, t243, t206 * t225);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t271 = mul_add(t174, t219, t188 * t228);
+        let t272 = mul_add(t170, t220, t184 * t229);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t273 = mul_sub(t234, t243, t206 * t226);
+        let t274 = mul_sub(t235, t243, t206 * t227);
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t275 = mul_add(t172, t221, t186 * t230);
+        // legs 1, 2, 3: mass matrix of the leg in the speeds of its joint
+        let t276 = t186 * t215;
+        // mass matrix of the legs
+        let t277 = mul_sub(t121, t238, t135 * t237);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t278 = mul_sub(t141, t210, neg_mul_add(t115, t174, t211));
+        let t279 = mul_sub(t141, t218, neg_mul_add(t115, t172, t222));
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t280 = t233 * t236;
+        let t281 = mul_add(t234, t255, t244);
+        let t282 = t235 * t255;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t283 = t86 * t178;
+        // mass matrix of the legs
+        let t284 = mul_sub(t135, t242, t125 * t238);
+        let t285 = mul_sub(t125, t237, t258);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t286 = mul_sub(t141, t209, neg_mul_add(t115, t170, t213));
+        // legs 1, 2, 3: Coriolis matrix of the leg in the speeds of its joint
+        let t287 = mul_add(t172, t219, t186 * t228);
+        let t288 = mul_add(t174, t220, t188 * t229);
+        let t289 = mul_add(t170, t221, t184 * t230);
+        // Coriolis matrix of the legs
+        let t290 = t135 * t260;
+        let t291 = t121 * t263;
+        let t292 = t125 * t265;
+        // mass matrix of the legs
+        let t293 = mul_sub(t135, t276, t258);
+        // Coriolis matrix of the legs
+        let t294 = t125 * t271;
+        let t295 = t125 * t260;
+        let t296 = t135 * t263;
+        let t297 = t135 * t272;
+        let t298 = t181 * t242;
+        let t299 = t121 * t265;
+        let t300 = t121 * t275;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t301 = t234 * t280;
+        // mass matrix of the legs
+        let t302 = mul_sub(t135, t245, t125 * t242);
+        let t303 = t176 * t282;
+        let t304 = mul_sub(t125, t276, t121 * t245);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t305 = mul_sub(t188, t266, t186 * t248);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t306 = neg_mul_add(t227, t283, mul_sub(t192, t247, t249));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t307 = mul_sub(t184, t248, t188 * t250);
+        let t308 = mul_sub(t174, t240, t278);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t309 = neg_mul_add(t225, t283, mul_sub(t192, t246, t251));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t310 = mul_sub(t172, t240, t279);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t311 = P::splat(t8) + t176;
+        let t312 = P::splat(t13) + t183;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t313 = t235 * t280;
+        let t314 = mul_add(t235, t235 * t236, t244);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t315 = neg_mul_add(t188, t240, mul_sub(t141, t253, t256));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t316 = t194 * t239;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t317 = neg_mul_add(t184, t240, mul_sub(t141, t252, t257));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t318 = t180 * t239;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t319 = neg_mul_add(t233, t270, neg_mul_add(t225, t261, t243));
+        let t320 = neg_mul_add(t234, t273, neg_mul_add(t226, t262, t243));
+        let t321 = neg_mul_add(t235, t274, neg_mul_add(t227, t264, t243));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t322 = neg_mul_add(t226, t283, mul_sub(t192, t259, t267));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t323 = mul_sub(t186, t250, t184 * t266);
+        let t324 = mul_sub(t170, t240, t286);
+        // legs 4, 5, 6: platform joint from the base origin
+        let t325 = P::splat(t7) + t177;
+        // legs 4, 5, 6: mass matrix of the leg in the speeds of its joint
+        let t326 = mul_add(t233, t280, t244);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t327 = neg_mul_add(t186, t240, mul_sub(t141, t268, t269));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t328 = t179 * t239;
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t329 = mul_add(t227, t261, t235 * t270);
+        let t330 = mul_add(t225, t262, t233 * t273);
+        let t331 = mul_add(t226, t264, t234 * t274);
+        // mass matrix of the legs
+        let t332 = mul_sub(t183, t301, t303);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t333 = mul_sub(t192, t247, neg_mul_add(t159, t227, t249));
+        let t334 = mul_sub(t192, t246, neg_mul_add(t159, t225, t251));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t335 = mul_sub(t141, t253, neg_mul_add(t115, t188, t256));
+        let t336 = mul_sub(t141, t268, neg_mul_add(t115, t186, t269));
+        // mass matrix of the legs
+        let t337 = mul_sub(t183, t281, t177 * t282);
+        let t338 = mul_sub(t177, t301, t176 * t281);
+        // legs 4, 5, 6: Coriolis matrix of the leg in the speeds of its joint
+        let t339 = mul_add(t226, t261, t234 * t270);
+        let t340 = mul_add(t227, t262, t235 * t273);
+        let t341 = mul_add(t225, t264, t233 * t274);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t342 = mul_add(t184, t307, t308);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t343 = mul_sub(t192, t259, neg_mul_add(t159, t226, t267));
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t344 = mul_add(t188, t305, t310);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t345 = mul_sub(t141, t252, neg_mul_add(t115, t184, t257));
+        // mass matrix of the legs
+        let t346 = mul_sub(t121, t237, t135 * t254);
+        let t347 = mul_sub(t125, t254, t121 * t276);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t348 = mul_sub(t184, t323, t310);
+        let t349 = neg_mul_add(t186, t305, t308);
+        let t350 = mul_add(t186, t323, t324);
+        let t351 = neg_mul_add(t188, t307, t324);
+        // Coriolis matrix of the legs
+        let t352 = mul_add(t121, t271, t290) + mul_sub(t181, t237, t182 * t254);
+        let t353 = mul_add(t125, t272, t291) + mul_sub(t195, t276, t181 * t245);
+        let t354 = mul_add(t135, t275, t292) + mul_sub(t182, t242, t195 * t238);
+        // legs 1, 2, 3: Coriolis matrix between joint and base angular velocity
+        let t355 = t184 * t305;
+        let t356 = t186 * t307;
+        let t357 = t188 * t323;
+        // Coriolis matrix of the legs
+        let t358 = mul_sub(t135, t287, t294) + mul_sub(t182, t276, t195 * t237);
+        let t359 = mul_add(t121, t287, t295) - mul_sub(t195, t254, t181 * t276);
+        let t360 = mul_add(t125, t288, t296) - mul_sub(t182, t245, t195 * t242);
+        let t361 = mul_sub(t121, t288, t297) - mul_sub(t182, t276, t298);
+        let t362 = t231 * t282;
+        let t363 = mul_add(t135, t289, t299) - mul_sub(t181, t238, t182 * t237);
+        let t364 = mul_sub(t125, t289, t300) + mul_sub(t195, t237, t298);
+        // mass matrix of the legs
+        let t365 = mul_sub(t176, t314, t183 * t313);
+        let t366 = mul_add(t183, t332, mul_add(t135, t293, t125 * t277));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t367 = mul_sub(t235, t322, t234 * t306);
+        let t368 = mul_sub(t233, t306, t235 * t309);
+        let t369 = mul_sub(t227, t283, t333);
+        let t370 = mul_sub(t225, t283, t334);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t371 = mul_sub(t188, t327, t186 * t315);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t372 = neg_mul_add(t235, t283, mul_sub(t192, t312, t316));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t373 = mul_sub(t184, t315, t188 * t317);
+        let t374 = mul_sub(t188, t240, t335);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t375 = neg_mul_add(t233, t283, mul_sub(t192, t311, t318));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t376 = mul_sub(t186, t240, t336);
+        // mass matrix of the legs
+        let t377 = mul_sub(t183, t282, t177 * t314);
+        let t378 = mul_sub(t177, t313, t303);
+        let t379 = mul_add(t183, t337, mul_sub(t135, t302, t125 * t284));
+        let t380 = mul_add(t183, t338, mul_sub(t135, t304, t125 * t285));
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t381 = mul_sub(t234, t309, t233 * t322);
+        let t382 = mul_sub(t226, t283, t343);
+        // Coriolis matrix of the legs
+        let t383 = mul_sub(t241, t326, t231 * t301);
+        let t384 = mul_sub(t232, t281, t241 * t282);
+        let t385 = mul_sub(t231, t314, t232 * t313);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t386 = neg_mul_add(t234, t283, mul_sub(t192, t325, t328));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t387 = mul_sub(t186, t317, t184 * t327);
+        let t388 = mul_sub(t184, t240, t345);
+        // Coriolis matrix of the legs
+        let t389 = mul_sub(t232, t301, t241 * t313);
+        let t390 = mul_sub(t231, t313, t232 * t326);
+        let t391 = mul_sub(t241, t301, t231 * t281);
+        let t392 = mul_sub(t232, t282, t241 * t314);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t393 = mul_sub(t192, t312, neg_mul_add(t159, t235, t316));
+        let t394 = mul_sub(t192, t311, neg_mul_add(t159, t233, t318));
+        // mass matrix of the legs
+        let t395 = mul_add(t186, t215, t301);
+        let t396 = mul_add(t188, t215, t313);
+        let t397 = mul_add(t177, t365, t366);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t398 = neg_mul_add(t234, t367, t369);
+        let t399 = neg_mul_add(t235, t368, t370);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t400 = mul_add(t184, t373, t374);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t401 = mul_sub(t192, t325, neg_mul_add(t159, t234, t328));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t402 = mul_add(t188, t371, t376);
+        // mass matrix of the legs
+        let t403 = t254 + t326;
+        let t404 = neg_mul_add(t177, t377, t379);
+        let t405 = neg_mul_add(t177, t378, t380);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t406 = mul_add(t233, t368, t369);
+        let t407 = mul_sub(t233, t381, t382);
+        let t408 = mul_add(t234, t381, t370);
+        let t409 = mul_add(t235, t367, t382);
+        // Coriolis matrix of the legs
+        let t410 = mul_add(t176, t339, t177 * t319) - t383;
+        let t411 = mul_add(t177, t340, t183 * t320) - t384;
+        let t412 = mul_add(t183, t341, t176 * t321) - t385;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t413 = mul_sub(t184, t387, t376);
+        let t414 = neg_mul_add(t186, t371, t374);
+        let t415 = mul_add(t186, t387, t388);
+        let t416 = neg_mul_add(t188, t373, t388);
+        // legs 4, 5, 6: Coriolis matrix between joint and base angular velocity
+        let t417 = t233 * t367;
+        let t418 = t234 * t368;
+        let t419 = t235 * t381;
+        // Coriolis matrix of the legs
+        let t420 = mul_sub(t183, t339, t177 * t329) + t389;
+        let t421 = mul_add(t176, t329, t183 * t319) + t390;
+        let t422 = mul_sub(t176, t340, t183 * t330) - mul_sub(t232, t301, t362);
+        let t423 = mul_add(t177, t330, t176 * t320) + t391;
+        let t424 = mul_add(t183, t331, t177 * t321) + t392;
+        let t425 = mul_sub(t177, t341, t176 * t331) + mul_sub(t241, t313, t362);
+        let t426 = mul_sub(t177, t341, neg_mul_add(t125, t289, t297));
+        let t427 = mul_add(t177, t321, mul_add(t135, t288, t292));
+        let t428 = mul_add(t183, t319, mul_add(t121, t289, t290));
+        let t429 = mul_add(t183, t339, mul_sub(t135, t287, t300));
+        let t430 = mul_add(t176, t320, mul_add(t125, t287, t291));
+        let t431 = mul_sub(t176, t340, neg_mul_add(t121, t288, t294));
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t432 = neg_mul_add(t67, t81, t141);
+        let t433 = t184 * t371;
+        let t434 = t186 * t373;
+        let t435 = t188 * t387;
+        // Coriolis matrix of the legs
+        let t436 = mul_add(t177, t331, mul_add(t125, t275, t296));
+        let t437 = mul_add(t183, t329, mul_add(t135, t271, t299));
+        let t438 = mul_add(t176, t330, mul_add(t121, t272, t295));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t439 = mul_sub(t235, t386, t234 * t372);
+        let t440 = mul_sub(t233, t372, t235 * t375);
+        let t441 = mul_sub(t235, t283, t393);
+        let t442 = mul_sub(t233, t283, t394);
+        // Coriolis matrix of the legs
+        let t443 = mul_add(t183, t411, mul_add(t135, t360, t125 * t354));
+        let t444 = mul_add(t176, t412, mul_add(t121, t363, t135 * t352));
+        let t445 = mul_add(t177, t410, mul_add(t125, t359, t121 * t353));
+        // Coriolis matrix C_b, natural factorisation
+        let t446 = mul_add(t183, t398, mul_add(t135, t349, t125 * t344));
+        let t447 = mul_add(t176, t399, mul_add(t121, t351, t135 * t342));
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t448 = mul_sub(t234, t375, t233 * t386);
+        let t449 = mul_sub(t234, t283, t401);
+        // mass matrix of the legs
+        let t450 = mul_sub(t176, t313, t183 * t326);
+        let t451 = mul_sub(t177, t326, t176 * t301);
+        let t452 = mul_add(t176, t365, mul_sub(t121, t277, t135 * t346));
+        let t453 = mul_add(t176, t378, mul_sub(t121, t285, t135 * t347));
+        // Coriolis matrix of the legs
+        let t454 = mul_add(t183, t422, mul_add(t135, t361, t125 * t363));
+        let t455 = mul_add(t183, t423, mul_sub(t135, t353, t125 * t364));
+        let t456 = mul_add(t176, t424, mul_sub(t121, t354, t135 * t358));
+        let t457 = mul_add(t176, t425, mul_add(t121, t364, t135 * t359));
+        let t458 = mul_add(t177, t420, mul_add(t125, t358, t121 * t360));
+        let t459 = mul_add(t177, t421, mul_sub(t125, t352, t121 * t361));
+        // Coriolis matrix C_b, natural factorisation
+        let t460 = mul_add(t183, t418, mul_add(t135, t356, t125 * t351));
+        let t461 = mul_add(t183, t408, mul_sub(t135, t350, t125 * t357));
+        let t462 = mul_add(t176, t409, mul_sub(t121, t344, t135 * t355));
+        let t463 = mul_add(t176, t419, mul_sub(t121, t357, t135 * t348));
+        let t464 = mul_add(t177, t417, mul_add(t125, t355, t121 * t349));
+        let t465 = mul_add(t177, t406, mul_sub(t125, t342, t121 * t356));
+        let t466 = mul_add(t177, t407, mul_sub(t125, t348, t121 * t350));
+        // Coriolis matrix of the legs
+        let t467 = mul_sub(t183, t330, t426);
+        let t468 = mul_add(t183, t340, t427);
+        let t469 = mul_add(t176, t341, t428);
+        let t470 = mul_sub(t176, t331, t429);
+        let t471 = mul_add(t177, t339, t430);
+        let t472 = mul_sub(t177, t329, t431);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t473 = t184 * t432;
+        let t474 = t186 * t432;
+        let t475 = t188 * t432;
+        // Coriolis matrix of the legs
+        let t476 = mul_add(t183, t320, t436);
+        let t477 = mul_add(t176, t321, t437);
+        let t478 = mul_add(t177, t319, t438);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t479 = neg_mul_add(t234, t439, t441);
+        let t480 = neg_mul_add(t235, t440, t442);
+        // mass matrix of the legs
+        let t481 = mul_add(t188, t224, t282);
+        let t482 = P::triple([P::lane(t403, 0), P::lane(t395, 0), P::lane(t396, 0)]);
+        let t483 = P::triple([P::lane(t403, 1), P::lane(t395, 1), P::lane(t396, 1)]);
+        // Coriolis matrix of the legs
+        let t484 = t260 + t319;
+        let t485 = t263 + t320;
+        let t486 = t265 + t321;
+        let t487 = mul_add(t177, t424, t443);
+        let t488 = mul_add(t183, t421, t444);
+        let t489 = mul_add(t176, t423, t445);
+        // Coriolis matrix C_b, natural factorisation
+        let t490 = mul_add(t177, t409, t446);
+        let t491 = mul_add(t183, t406, t447);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t492 = neg_mul_add(t86, t114, t192);
+        let t493 = mul_add(t233, t440, t441);
+        let t494 = mul_sub(t233, t448, t449);
+        let t495 = mul_add(t234, t448, t442);
+        let t496 = mul_add(t235, t439, t449);
+        // mass matrix of the legs
+        let t497 = t245 + t281;
+        let t498 = neg_mul_add(t183, t450, t452);
+        let t499 = neg_mul_add(t183, t451, t453);
+        let t500 = P::triple([P::lane(t404, 0), -P::lane(t397, 0), P::lane(t405, 0)]);
+        let t501 = P::triple([P::lane(t404, 1), -P::lane(t397, 1), P::lane(t405, 1)]);
+        // Coriolis matrix of the legs
+        let t502 = t287 + t339;
+        let t503 = t271 + t329;
+        let t504 = t272 + t330;
+        let t505 = t288 + t340;
+        let t506 = t289 + t341;
+        let t507 = t275 + t331;
+        let t508 = mul_add(t177, t412, t454);
+        let t509 = neg_mul_add(t177, t425, t455);
+        let t510 = neg_mul_add(t183, t420, t456);
+        let t511 = mul_add(t183, t410, t457);
+        let t512 = mul_add(t176, t411, t458);
+        let t513 = neg_mul_add(t176, t422, t459);
+        // Coriolis matrix C_b, natural factorisation
+        let t514 = mul_add(t177, t399, t460);
+        let t515 = neg_mul_add(t177, t419, t461);
+        let t516 = neg_mul_add(t183, t417, t462);
+        let t517 = neg_mul_add(t183, t407, t463);
+        let t518 = mul_add(t176, t398, t464);
+        let t519 = neg_mul_add(t176, t418, t465);
+        let t520 = neg_mul_add(t176, t408, t466);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t521 = neg_mul_add(t184, t473, t432);
+        let t522 = t184 * t475;
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t523 = t233 * t439;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t524 = t186 * t473;
+        let t525 = neg_mul_add(t186, t474, t432);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t526 = t234 * t440;
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t527 = t188 * t474;
+        let t528 = neg_mul_add(t188, t475, t432);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t529 = t235 * t448;
+        // Coriolis matrix of the legs
+        let t530 = t359 + t410;
+        let t531 = t360 + t411;
+        let t532 = t363 + t412;
+        // Coriolis matrix C_b, natural factorisation
+        let t533 = mul_add(t184, t305, t417);
+        let t534 = t349 + t398;
+        let t535 = mul_add(t186, t307, t418);
+        let t536 = t351 + t399;
+        let t537 = mul_add(t188, t323, t419);
+        // legs 1, 2, 3: leg inertia between joint and base speeds
+        let t538 = t184 * t474;
+        let t539 = t186 * t475;
+        let t540 = t188 * t473;
+        // mass matrix of the legs
+        let t541 = mul_add(t183, t301, mul_sub(t135, t276, t125 * t237));
+        let t542 = P::triple([P::lane(t403, 2), P::lane(t395, 2), P::lane(t396, 2)]);
+        // Coriolis matrix of the legs
+        let t543 = t358 + t420;
+        let t544 = t352 + t421;
+        let t545 = t361 + t422;
+        let t546 = t353 + t423;
+        let t547 = t354 + t424;
+        let t548 = t364 + t425;
+        // Coriolis matrix C_b, natural factorisation
+        let t549 = t342 + t406;
+        let t550 = t348 + t407;
+        let t551 = t350 + t408;
+        let t552 = t344 + t409;
+        // mass matrix of the legs
+        let t553 = t482 + t483 + t542;
+        let t554 = P::triple([P::lane(t404, 2), -P::lane(t397, 2), P::lane(t405, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t555 = mul_add(t183, t479, mul_add(t135, t414, t125 * t402));
+        let t556 = mul_add(t176, t480, mul_add(t121, t416, t135 * t400));
+        // mass matrix M_p of the platform
+        let t557 = platform_rotation[1][1] * prepared[18][1];
+        let t558 = platform_rotation[2][1] * prepared[18][1];
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t559 = t233 * t492;
+        let t560 = t234 * t492;
+        let t561 = t235 * t492;
+        // mass matrix of the legs
+        let t562 = mul_add(t177, t451, mul_sub(t125, t347, t121 * t304));
+        let t563 = t500 + t501 + t554;
+        // mass matrix M_b that couples the base acceleration
+        let t564 = mul_add(t183, t526, mul_add(t135, t434, t125 * t416));
+        let t565 = mul_add(t183, t495, mul_sub(t135, t415, t125 * t435));
+        let t566 = mul_add(t176, t496, mul_sub(t121, t402, t135 * t433));
+        let t567 = mul_add(t176, t529, mul_sub(t121, t435, t135 * t413));
+        let t568 = mul_add(t177, t523, mul_add(t125, t433, t121 * t414));
+        let t569 = mul_add(t177, t493, mul_sub(t125, t400, t121 * t434));
+        let t570 = mul_add(t177, t494, mul_sub(t125, t413, t121 * t415));
+        // mass matrix of the legs
+        let t571 = neg_mul_add(t177, t313, t541);
+        let t572 = t293 + t332;
+        // Coriolis matrix of the legs
+        let t573 = P::triple([-P::lane(t467, 0), P::lane(t476, 0), -P::lane(t468, 0)]);
+        let t574 = P::triple([-P::lane(t467, 1), P::lane(t476, 1), -P::lane(t468, 1)]);
+        let t575 = P::triple([-P::lane(t469, 0), -P::lane(t470, 0), P::lane(t477, 0)]);
+        let t576 = P::triple([-P::lane(t469, 1), -P::lane(t470, 1), P::lane(t477, 1)]);
+        let t577 = P::triple([P::lane(t478, 0), -P::lane(t471, 0), -P::lane(t472, 0)]);
+        let t578 = P::triple([P::lane(t478, 1), -P::lane(t471, 1), -P::lane(t472, 1)]);
+        // mass matrix M_p of the platform
+        let t579 = platform_rotation[0][1] * prepared[18][1];
+        let t580 = platform_rotation[1][1] * prepared[19][0];
+        let t581 = P::mul_add(platform_rotation[1][0], prepared[19][0], t557);
+        let t582 = platform_rotation[2][1] * prepared[19][0];
+        let t583 = P::mul_add(platform_rotation[2][0], prepared[19][0], t558);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t584 = neg_mul_add(t233, t559, t492);
+        let t585 = neg_mul_add(t234, t560, t492);
+        let t586 = neg_mul_add(t235, t561, t492);
+        // mass matrix of the legs
+        let t587 = t346 + t450;
+        let t588 = t347 + t451;
+        let t589 = t302 + t337;
+        let t590 = t304 + t338;
+        let t591 = t284 + t377;
+        let t592 = t277 + t365;
+        let t593 = t285 + t378;
+        let t594 = P::lane(t481, 1) + P::lane(t481, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t595 = mul_add(t177, t496, t555);
+        let t596 = mul_add(t183, t493, t556);
+        // Coriolis matrix of the legs
+        let t597 = P::triple([-P::lane(t484, 0), P::lane(t502, 0), P::lane(t503, 0)]);
+        let t598 = P::triple([-P::lane(t484, 1), P::lane(t502, 1), P::lane(t503, 1)]);
+        let t599 = P::triple([P::lane(t504, 0), -P::lane(t485, 0), P::lane(t505, 0)]);
+        let t600 = P::triple([P::lane(t504, 1), -P::lane(t485, 1), P::lane(t505, 1)]);
+        let t601 = P::triple([P::lane(t506, 0), P::lane(t507, 0), -P::lane(t486, 0)]);
+        let t602 = P::triple([P::lane(t506, 1), P::lane(t507, 1), -P::lane(t486, 1)]);
+        // mass matrix of the legs
+        let t603 = t238 + t314;
+        let t604 = neg_mul_add(t176, t338, t562);
+        let t605 = P::lane(t499, 1) + P::lane(t499, 0);
+        // mass matrix M_b that couples the base acceleration
+        let t606 = mul_add(t177, t480, t564);
+        let t607 = neg_mul_add(t177, t529, t565);
+        let t608 = neg_mul_add(t183, t523, t566);
+        let t609 = neg_mul_add(t183, t494, t567);
+        let t610 = mul_add(t176, t479, t568);
+        let t611 = neg_mul_add(t176, t526, t569);
+        let t612 = neg_mul_add(t176, t495, t570);
+        // Coriolis matrix of the legs
+        let t613 = P::triple([-P::lane(t487, 0), P::lane(t508, 0), P::lane(t509, 0)]);
+        let t614 = P::triple([-P::lane(t487, 1), P::lane(t508, 1), P::lane(t509, 1)]);
+        let t615 = P::triple([P::lane(t510, 0), -P::lane(t488, 0), P::lane(t511, 0)]);
+        let t616 = P::triple([P::lane(t510, 1), -P::lane(t488, 1), P::lane(t511, 1)]);
+        let t617 = P::triple([P::lane(t512, 0), P::lane(t513, 0), -P::lane(t489, 0)]);
+        let t618 = P::triple([P::lane(t512, 1), P::lane(t513, 1), -P::lane(t489, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t619 = P::triple([-P::lane(t490, 0), P::lane(t514, 0), P::lane(t515, 0)]);
+        let t620 = P::triple([-P::lane(t490, 1), P::lane(t514, 1), P::lane(t515, 1)]);
+        let t621 = P::triple([P::lane(t516, 0), -P::lane(t491, 0), P::lane(t517, 0)]);
+        let t622 = P::triple([P::lane(t516, 1), -P::lane(t491, 1), P::lane(t517, 1)]);
+        let t623 = P::triple([P::lane(t518, 0), P::lane(t519, 0), P::lane(t520, 0)]);
+        let t624 = P::triple([P::lane(t518, 1), P::lane(t519, 1), P::lane(t520, 1)]);
+        // legs 4, 5, 6: leg inertia between joint and base speeds
+        let t625 = t233 * t560;
+        let t626 = t233 * t561;
+        let t627 = t234 * t559;
+        let t628 = t234 * t561;
+        let t629 = t235 * t559;
+        let t630 = t235 * t560;
+        // mass matrix M_b that couples the base acceleration
+        let t631 = mul_add(t184, t371, t523);
+        let t632 = t414 + t479;
+        let t633 = mul_add(t186, t373, t526);
+        let t634 = t416 + t480;
+        let t635 = mul_add(t188, t387, t529);
+        // Coriolis matrix of the legs
+        let t636 = P::triple([P::lane(t543, 0), P::lane(t544, 0), -P::lane(t530, 0)]);
+        let t637 = P::triple([P::lane(t543, 1), P::lane(t544, 1), -P::lane(t530, 1)]);
+        let t638 = P::triple([-P::lane(t531, 0), P::lane(t545, 0), P::lane(t546, 0)]);
+        let t639 = P::triple([-P::lane(t531, 1), P::lane(t545, 1), P::lane(t546, 1)]);
+        let t640 = P::triple([P::lane(t547, 0), -P::lane(t532, 0), P::lane(t548, 0)]);
+        let t641 = P::triple([P::lane(t547, 1), -P::lane(t532, 1), P::lane(t548, 1)]);
+        let t642 = P::triple([-P::lane(t467, 2), P::lane(t476, 2), -P::lane(t468, 2)]);
+        let t643 = P::triple([-P::lane(t469, 2), -P::lane(t470, 2), P::lane(t477, 2)]);
+        let t644 = P::triple([P::lane(t478, 2), -P::lane(t471, 2), -P::lane(t472, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t645 = P::triple([P::lane(t533, 0), P::lane(t549, 0), P::lane(t550, 0)]);
+        let t646 = P::triple([P::lane(t533, 1), P::lane(t549, 1), P::lane(t550, 1)]);
+        let t647 = P::triple([-P::lane(t534, 0), P::lane(t535, 0), P::lane(t551, 0)]);
+        let t648 = P::triple([-P::lane(t534, 1), P::lane(t535, 1), P::lane(t551, 1)]);
+        let t649 = P::triple([P::lane(t552, 0), -P::lane(t536, 0), P::lane(t537, 0)]);
+        let t650 = P::triple([P::lane(t552, 1), -P::lane(t536, 1), P::lane(t537, 1)]);
+        // mass matrix M_p of the platform
+        let t651 = platform_rotation[0][1] * prepared[19][0];
+        let t652 = P::mul_add(platform_rotation[0][0], prepared[19][0], t579);
+        let t653 = P::mul_add(platform_rotation[1][0], prepared[18][0], t580);
+        let t654 = P::mul_add(platform_rotation[2][0], prepared[18][0], t582);
+        // mass matrix of the legs
+        let t655 = P::triple([P::lane(t553, 1), P::lane(t497, 2), P::lane(t481, 2)]);
+        let t656 = P::triple([c(0.0), P::lane(t497, 1) + P::lane(t497, 0), t594]);
+        // mass matrix M_b that couples the base acceleration
+        let t657 = t400 + t493;
+        let t658 = t413 + t494;
+        let t659 = t415 + t495;
+        let t660 = t402 + t496;
+        // Coriolis matrix of the legs
+        let t661 = P::triple([-P::lane(t484, 2), P::lane(t502, 2), P::lane(t503, 2)]);
+        let t662 = P::triple([P::lane(t504, 2), -P::lane(t485, 2), P::lane(t505, 2)]);
+        let t663 = P::triple([P::lane(t506, 2), P::lane(t507, 2), -P::lane(t486, 2)]);
+        let t664 = t573 + t574 + t642;
+        let t665 = t575 + t576 + t643;
+        let t666 = t577 + t578 + t644;
+        // mass matrix M_p of the platform
+        let t667 = P::mul_add(platform_rotation[1][2], prepared[19][1], t581);
+        let t668 = platform_rotation[1][1] * prepared[19][1];
+        let t669 = P::mul_add(platform_rotation[2][2], prepared[19][1], t583);
+        let t670 = platform_rotation[2][1] * prepared[19][1];
+        // mass matrix of the legs
+        let t671 = t655 + t656;
+        let t672 = P::triple([P::lane(t563, 1), P::lane(t498, 2), P::lane(t499, 2)]);
+        let t673 = P::triple([c(0.0), P::lane(t498, 1) + P::lane(t498, 0), t605]);
+        // mass matrix M_b that couples the base acceleration
+        let t674 = mul_add(t183, t585, mul_add(t135, t525, t125 * t527));
+        let t675 = mul_add(t176, t586, mul_add(t121, t528, t135 * t522));
+        let t676 = mul_add(t177, t584, mul_add(t125, t521, t121 * t524));
+        // Coriolis matrix of the legs
+        let t677 = t597 + t598 + t661;
+        let t678 = t599 + t600 + t662;
+        let t679 = t601 + t602 + t663;
+        let t680 = P::triple([-P::lane(t487, 2), P::lane(t508, 2), P::lane(t509, 2)]);
+        let t681 = P::triple([P::lane(t510, 2), -P::lane(t488, 2), P::lane(t511, 2)]);
+        let t682 = P::triple([P::lane(t512, 2), P::lane(t513, 2), -P::lane(t489, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t683 = P::triple([-P::lane(t490, 2), P::lane(t514, 2), P::lane(t515, 2)]);
+        let t684 = P::triple([P::lane(t516, 2), -P::lane(t491, 2), P::lane(t517, 2)]);
+        let t685 = P::triple([P::lane(t518, 2), P::lane(t519, 2), P::lane(t520, 2)]);
+        // mass matrix of the legs
+        let t686 = t672 + t673;
+        // mass matrix M_b that couples the base acceleration
+        let t687 = mul_add(t183, t627, mul_sub(t135, t524, t125 * t540));
+        let t688 = mul_add(t183, t628, mul_add(t135, t539, t125 * t528));
+        let t689 = mul_add(t176, t629, mul_add(t121, t540, t135 * t521));
+        let t690 = mul_add(t176, t630, mul_sub(t121, t527, t135 * t538));
+        let t691 = mul_add(t177, t625, mul_add(t125, t538, t121 * t525));
+        let t692 = mul_add(t177, t626, mul_sub(t125, t522, t121 * t539));
+        // Coriolis matrix of the legs
+        let t693 = P::triple([P::lane(t543, 2), P::lane(t544, 2), -P::lane(t530, 2)]);
+        let t694 = P::triple([-P::lane(t531, 2), P::lane(t545, 2), P::lane(t546, 2)]);
+        let t695 = P::triple([P::lane(t547, 2), -P::lane(t532, 2), P::lane(t548, 2)]);
+        let t696 = t613 + t614 + t680;
+        let t697 = t615 + t616 + t681;
+        let t698 = t617 + t618 + t682;
+        // Coriolis matrix C_b, natural factorisation
+        let t699 = P::triple([P::lane(t533, 2), P::lane(t549, 2), P::lane(t550, 2)]);
+        let t700 = P::triple([-P::lane(t534, 2), P::lane(t535, 2), P::lane(t551, 2)]);
+        let t701 = P::triple([P::lane(t552, 2), -P::lane(t536, 2), P::lane(t537, 2)]);
+        // mass matrix M_p of the platform
+        let t702 = P::mul_add(platform_rotation[0][0], prepared[18][0], t651);
+        // Coriolis matrix of the legs
+        let t703 = t636 + t637 + t693;
+        let t704 = t638 + t639 + t694;
+        let t705 = t640 + t641 + t695;
+        // mass matrix M_p of the platform
+        let t706 = P::mul_add(platform_rotation[0][2], prepared[19][1], t652);
+        let t707 = platform_rotation[0][1] * prepared[19][1];
+        let t708 = P::mul_add(platform_rotation[1][2], prepared[19][2], t653);
+        let t709 = P::mul_add(platform_rotation[1][0], prepared[19][2], t668);
+        let t710 = P::mul_add(platform_rotation[2][2], prepared[19][2], t654);
+        let t711 = P::mul_add(platform_rotation[2][0], prepared[19][2], t670);
+        // mass matrix of the legs
+        let t712 = P::triple([P::lane(t571, 0), P::lane(t587, 0), P::lane(t588, 0)]);
+        let t713 = P::triple([P::lane(t571, 1), P::lane(t587, 1), P::lane(t588, 1)]);
+        let t714 = P::triple([P::lane(t589, 0), -P::lane(t572, 0), P::lane(t590, 0)]);
+        let t715 = P::triple([P::lane(t589, 1), -P::lane(t572, 1), P::lane(t590, 1)]);
+        let t716 = P::triple([P::lane(t591, 0), P::lane(t592, 0), P::lane(t593, 0)]);
+        let t717 = P::triple([P::lane(t591, 1), P::lane(t592, 1), P::lane(t593, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t718 = mul_add(t177, t630, t674);
+        let t719 = mul_add(t183, t626, t675);
+        let t720 = mul_add(t176, t627, t676);
+        let t721 = neg_mul_add(t177, t629, t687);
+        let t722 = mul_add(t177, t586, t688);
+        let t723 = mul_add(t183, t584, t689);
+        let t724 = neg_mul_add(t183, t625, t690);
+        let t725 = mul_add(t176, t585, t691);
+        let t726 = neg_mul_add(t176, t628, t692);
+        let t727 = P::triple([-P::lane(t595, 0), P::lane(t606, 0), P::lane(t607, 0)]);
+        let t728 = P::triple([-P::lane(t595, 1), P::lane(t606, 1), P::lane(t607, 1)]);
+        let t729 = P::triple([P::lane(t608, 0), -P::lane(t596, 0), P::lane(t609, 0)]);
+        let t730 = P::triple([P::lane(t608, 1), -P::lane(t596, 1), P::lane(t609, 1)]);
+        let t731 = P::triple([P::lane(t610, 0), P::lane(t611, 0), P::lane(t612, 0)]);
+        let t732 = P::triple([P::lane(t610, 1), P::lane(t611, 1), P::lane(t612, 1)]);
+        // mass matrix M_p of the platform
+        let t733 = P::mul_add(platform_rotation[0][2], prepared[19][2], t702);
+        let t734 = P::mul_add(platform_rotation[0][0], prepared[19][2], t707);
+        // mass matrix of the legs
+        let t735 = P::triple([P::lane(t571, 2), P::lane(t587, 2), P::lane(t588, 2)]);
+        let t736 = P::triple([P::lane(t589, 2), -P::lane(t572, 2), P::lane(t590, 2)]);
+        let t737 = P::triple([P::lane(t591, 2), P::lane(t592, 2), P::lane(t593, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t738 = t521 + t584;
+        let t739 = mul_add(t184, t474, t625);
+        let t740 = mul_add(t184, t475, t626);
+        let t741 = mul_add(t186, t473, t627);
+        let t742 = t525 + t585;
+        let t743 = mul_add(t186, t475, t628);
+        let t744 = mul_add(t188, t473, t629);
+        let t745 = mul_add(t188, t474, t630);
+        let t746 = t528 + t586;
+        let t747 = P::triple([P::lane(t631, 0), P::lane(t657, 0), P::lane(t658, 0)]);
+        let t748 = P::triple([P::lane(t631, 1), P::lane(t657, 1), P::lane(t658, 1)]);
+        let t749 = P::triple([-P::lane(t632, 0), P::lane(t633, 0), P::lane(t659, 0)]);
+        let t750 = P::triple([-P::lane(t632, 1), P::lane(t633, 1), P::lane(t659, 1)]);
+        let t751 = P::triple([P::lane(t660, 0), -P::lane(t634, 0), P::lane(t635, 0)]);
+        let t752 = P::triple([P::lane(t660, 1), -P::lane(t634, 1), P::lane(t635, 1)]);
+        // platform origin seen from the base
+        let t753 = P::triple([t13, t8, t7]);
+        // Coriolis matrix of the legs
+        let t754 = P::triple([P::lane(t664, 1), P::lane(t664, 2), P::lane(t664, 0)]);
+        let t755 = P::triple([P::lane(t665, 1), P::lane(t665, 2), P::lane(t665, 0)]);
+        let t756 = P::triple([P::lane(t666, 1), P::lane(t666, 2), P::lane(t666, 0)]);
+        // mass matrix M_p of the platform
+        let t757 = platform_rotation[2][1] * prepared[20][1];
+        let t758 = platform_rotation[1][1] * prepared[20][1];
+        let t759 = platform_rotation[0][1] * prepared[20][1];
+        let t760 = P::mul_add(platform_rotation[1][0], t708, platform_rotation[1][1] * t667);
+        let t761 = P::mul_add(platform_rotation[1][2], prepared[18][2], t709);
+        let t762 = P::mul_add(platform_rotation[2][0], t710, platform_rotation[2][1] * t669);
+        let t763 = P::mul_add(platform_rotation[2][2], prepared[18][2], t711);
+        // mass matrix of the legs
+        let t764 = t712 + t713 + t735;
+        let t765 = t714 + t715 + t736;
+        let t766 = P::triple([P::lane(t553, 2), P::lane(t671, 2), P::lane(t603, 2)]);
+        let t767 = P::triple([c(0.0), c(0.0), P::lane(t603, 1) + P::lane(t603, 0)]);
+        let t768 = t716 + t717 + t737;
+        // Coriolis matrix of the legs
+        let t769 = P::triple([P::lane(t677, 1), P::lane(t677, 2), P::lane(t677, 0)]);
+        let t770 = P::triple([P::lane(t678, 1), P::lane(t678, 2), P::lane(t678, 0)]);
+        let t771 = P::triple([P::lane(t679, 1), P::lane(t679, 2), P::lane(t679, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t772 = neg_mul_add(t753, t754, t696 + (t619 + t620 + t683));
+        let t773 = neg_mul_add(t753, t755, t697 + (t621 + t622 + t684));
+        let t774 = neg_mul_add(t753, t756, t698 + (t623 + t624 + t685));
+        // mass matrix of the legs
+        let t775 = t766 + t767;
+        let t776 = P::triple([P::lane(t563, 2), P::lane(t686, 2), P::lane(t604, 2)]);
+        let t777 = P::triple([c(0.0), c(0.0), P::lane(t604, 1) + P::lane(t604, 0)]);
+        // mass matrix M_b that couples the base acceleration
+        let t778 = P::triple([-P::lane(t595, 2), P::lane(t606, 2), P::lane(t607, 2)]);
+        let t779 = P::triple([P::lane(t608, 2), -P::lane(t596, 2), P::lane(t609, 2)]);
+        let t780 = P::triple([P::lane(t610, 2), P::lane(t611, 2), P::lane(t612, 2)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t781 = mul_add(t753, t769, t703 + (t645 + t646 + t699));
+        let t782 = mul_add(t753, t770, t704 + (t647 + t648 + t700));
+        let t783 = mul_add(t753, t771, t705 + (t649 + t650 + t701));
+        // mass matrix of the legs
+        let t784 = t776 + t777;
+        // mass matrix M_b that couples the base acceleration
+        let t785 = P::triple([P::lane(t631, 2), P::lane(t657, 2), P::lane(t658, 2)]);
+        let t786 = P::triple([-P::lane(t632, 2), P::lane(t633, 2), P::lane(t659, 2)]);
+        let t787 = P::triple([P::lane(t660, 2), -P::lane(t634, 2), P::lane(t635, 2)]);
+        // mass matrix M_p of the platform
+        let t788 = P::mul_add(platform_rotation[2][0], prepared[20][0], t757);
+        let t789 = P::mul_add(platform_rotation[1][0], prepared[20][0], t758);
+        let t790 = P::mul_add(platform_rotation[0][0], prepared[20][0], t759);
+        let t791 = P::mul_add(platform_rotation[0][0], t733, platform_rotation[0][1] * t706);
+        let t792 = P::mul_add(platform_rotation[0][2], prepared[18][2], t734);
+        // platform origin seen from the base
+        let t793 = P::triple([t7, t13, t8]);
+        // Coriolis matrix of the legs
+        let t794 = P::triple([P::lane(t664, 2), P::lane(t664, 0), P::lane(t664, 1)]);
+        let t795 = P::triple([P::lane(t665, 2), P::lane(t665, 0), P::lane(t665, 1)]);
+        let t796 = P::triple([P::lane(t666, 2), P::lane(t666, 0), P::lane(t666, 1)]);
+        // mass matrix M_p of the platform
+        let t797 = P::mul_add(platform_rotation[1][0], t733, platform_rotation[1][1] * t706);
+        let t798 = P::mul_add(platform_rotation[2][0], t733, platform_rotation[2][1] * t706);
+        let t799 = P::mul_add(platform_rotation[1][2], t761, t760);
+        let t800 = P::mul_add(platform_rotation[2][0], t708, platform_rotation[2][1] * t667);
+        let t801 = P::mul_add(platform_rotation[2][2], t763, t762);
+        // Coriolis matrix of the legs
+        let t802 = P::triple([P::lane(t677, 2), P::lane(t677, 0), P::lane(t677, 1)]);
+        let t803 = P::triple([P::lane(t678, 2), P::lane(t678, 0), P::lane(t678, 1)]);
+        let t804 = P::triple([P::lane(t679, 2), P::lane(t679, 0), P::lane(t679, 1)]);
+        // mass matrix M_b that couples the base acceleration
+        let t805 = P::triple([P::lane(t721, 0), -P::lane(t718, 0), P::lane(t722, 0)]);
+        let t806 = P::triple([P::lane(t721, 1), -P::lane(t718, 1), P::lane(t722, 1)]);
+        let t807 = P::triple([P::lane(t723, 0), P::lane(t724, 0), -P::lane(t719, 0)]);
+        let t808 = P::triple([P::lane(t723, 1), P::lane(t724, 1), -P::lane(t719, 1)]);
+        let t809 = P::triple([-P::lane(t720, 0), P::lane(t725, 0), P::lane(t726, 0)]);
+        let t810 = P::triple([-P::lane(t720, 1), P::lane(t725, 1), P::lane(t726, 1)]);
+        // mass matrix M_p of the platform
+        let t811 = P::mul_add(platform_rotation[2][2], prepared[20][2], t788);
+        let t812 = P::mul_add(platform_rotation[1][2], prepared[20][2], t789);
+        let t813 = P::mul_add(platform_rotation[0][2], prepared[20][2], t790);
+        let t814 = P::mul_add(platform_rotation[0][2], t792, t791);
+        // mass matrix M_b that couples the base acceleration
+        let t815 = P::triple([-P::lane(t738, 0), P::lane(t739, 0), P::lane(t740, 0)]);
+        let t816 = P::triple([-P::lane(t738, 1), P::lane(t739, 1), P::lane(t740, 1)]);
+        let t817 = P::triple([P::lane(t741, 0), -P::lane(t742, 0), P::lane(t743, 0)]);
+        let t818 = P::triple([P::lane(t741, 1), -P::lane(t742, 1), P::lane(t743, 1)]);
+        let t819 = P::triple([P::lane(t744, 0), P::lane(t745, 0), -P::lane(t746, 0)]);
+        let t820 = P::triple([P::lane(t744, 1), P::lane(t745, 1), -P::lane(t746, 1)]);
+        // mass matrix of the legs
+        let t821 = P::triple([P::lane(t765, 0), P::lane(t768, 0), P::lane(t764, 0)]);
+        let t822 = P::triple([P::lane(t765, 1), P::lane(t768, 1), P::lane(t764, 1)]);
+        let t823 = P::triple([P::lane(t765, 2), P::lane(t768, 2), P::lane(t764, 2)]);
+        // velocity of the platform origin relative to the base
+        let t824 = P::triple([t56, t55, t54]);
+        // mass matrix M_p of the platform
+        let t825 = P::mul_add(platform_rotation[1][2], t792, t797);
+        let t826 = P::mul_add(platform_rotation[2][2], t792, t798);
+        let t827 = P::mul_add(platform_rotation[2][2], t761, t800);
+        // Coriolis matrix C_p, natural factorisation
+        let t828 = P::mul_sub(prepared[24][0], c(0.5), t799);
+        let t829 = P::mul_sub(prepared[24][0], c(0.5), t801);
+        // mass matrix of the legs
+        let t830 = P::triple([P::lane(t553, 1), P::lane(t553, 2), P::lane(t553, 0)]);
+        let t831 = P::triple([P::lane(t671, 1), P::lane(t671, 2), P::lane(t553, 1)]);
+        let t832 = P::triple([P::lane(t671, 2), P::lane(t775, 2), P::lane(t553, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t833 = mul_add(t753, t821, t563 + (t727 + t728 + t778));
+        let t834 = mul_add(t753, t822, t686 + (t729 + t730 + t779));
+        let t835 = mul_add(t753, t823, t784 + (t731 + t732 + t780));
+        // Coriolis matrix C_b, natural factorisation
+        let t836 = mul_add(t821, t824, mul_add(t793, t794, t772));
+        let t837 = mul_add(t822, t824, mul_add(t793, t795, t773));
+        let t838 = mul_add(t823, t824, mul_add(t793, t796, t774));
+        // mass matrix M_b that couples the base acceleration
+        let t839 = P::triple([P::lane(t721, 2), -P::lane(t718, 2), P::lane(t722, 2)]);
+        let t840 = P::triple([P::lane(t723, 2), P::lane(t724, 2), -P::lane(t719, 2)]);
+        let t841 = P::triple([-P::lane(t720, 2), P::lane(t725, 2), P::lane(t726, 2)]);
+        let t842 = mul_add(t753, t830, t764 + (t747 + t748 + t785));
+        let t843 = mul_add(t753, t831, t765 + (t749 + t750 + t786));
+        let t844 = mul_add(t753, t832, t768 + (t751 + t752 + t787));
+        // Coriolis matrix C_b, natural factorisation
+        let t845 = neg_mul_add(t824, t830, mul_sub(t793, t802, t781));
+        let t846 = neg_mul_add(t824, t831, mul_sub(t793, t803, t782));
+        let t847 = neg_mul_add(t824, t832, mul_sub(t793, t804, t783));
+        // mass matrix M_b that couples the base acceleration
+        let t848 = P::triple([-P::lane(t738, 2), P::lane(t739, 2), P::lane(t740, 2)]);
+        let t849 = P::triple([P::lane(t741, 2), -P::lane(t742, 2), P::lane(t743, 2)]);
+        let t850 = P::triple([P::lane(t744, 2), P::lane(t745, 2), -P::lane(t746, 2)]);
+        // Coriolis matrix C_p, natural factorisation
+        let t851 = P::mul_sub(prepared[24][0], c(0.5), t814);
+        // mass matrix of the legs
+        let t852 = P::triple([P::lane(t768, 0), P::lane(t764, 0), P::lane(t765, 0)]);
+        let t853 = P::triple([P::lane(t768, 1), P::lane(t764, 1), P::lane(t765, 1)]);
+        let t854 = P::triple([P::lane(t768, 2), P::lane(t764, 2), P::lane(t765, 2)]);
+        // velocity of the platform origin relative to the base
+        let t855 = P::triple([t54, t56, t55]);
+        // Coriolis matrix C_p, natural factorisation
+        let t856 = platform_velocity[3] * t827;
+        // mass matrix of the legs
+        let t857 = P::triple([P::lane(t764, 0), P::lane(t765, 0), P::lane(t768, 0)]);
+        let t858 = P::triple([P::lane(t764, 1), P::lane(t765, 1), P::lane(t768, 1)]);
+        let t859 = P::triple([P::lane(t764, 2), P::lane(t765, 2), P::lane(t768, 2)]);
+        let t860 = P::triple([P::lane(t553, 2), P::lane(t553, 0), P::lane(t553, 1)]);
+        let t861 = P::triple([P::lane(t671, 2), P::lane(t553, 1), P::lane(t671, 1)]);
+        let t862 = P::triple([P::lane(t775, 2), P::lane(t553, 2), P::lane(t671, 2)]);
+        // mass matrix M_b that couples the base acceleration
+        let t863 = mul_sub(t793, t852, t833);
+        let t864 = mul_sub(t793, t853, t834);
+        let t865 = mul_sub(t793, t854, t835);
+        // Coriolis matrix C_b, natural factorisation
+        let t866 = mul_sub(t852, t855, t836);
+        let t867 = mul_sub(t853, t855, t837);
+        let t868 = mul_sub(t854, t855, t838);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t869 = mul_sub(t125, t188, t135 * t186);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t870 = mul_sub(t177, t235, t183 * t234);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t871 = mul_sub(t135, t184, t121 * t188);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t872 = mul_sub(t183, t233, t176 * t235);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t873 = mul_sub(t121, t186, t125 * t184);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t874 = mul_sub(t176, t234, t177 * t233);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t875 = mul_sub(t188, t268, t186 * t253);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t876 = mul_sub(t235, t325, t234 * t312);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t877 = mul_sub(t184, t253, t188 * t252);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t878 = mul_sub(t233, t312, t235 * t311);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t879 = mul_sub(t186, t252, t184 * t268);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t880 = mul_sub(t234, t311, t233 * t325);
+        // mass matrix M_p of the platform
+        let t881 = P::load(&prepared[21]);
+        // mass matrix M_b that couples the base acceleration
+        let t882 = mul_sub(t793, t860, t842);
+        let t883 = mul_sub(t793, t861, t843);
+        let t884 = mul_sub(t793, t862, t844);
+        let t885 = t857 - (t805 + t806 + t839);
+        let t886 = t858 - (t807 + t808 + t840);
+        let t887 = t859 - (t809 + t810 + t841);
+        // Coriolis matrix C_b, natural factorisation
+        let t888 = mul_add(t855, t860, t845);
+        let t889 = mul_add(t855, t861, t846);
+        let t890 = mul_add(t855, t862, t847);
+        // Coriolis matrix C_p, natural factorisation
+        let t891 = P::mul_sub(platform_velocity[3], t812, platform_velocity[4] * t813);
+        let t892 = P::mul_sub(platform_velocity[5], t813, platform_velocity[3] * t811);
+        let t893 = P::mul_sub(platform_velocity[4], t811, platform_velocity[5] * t812);
+        // mass matrix of the legs
+        let t894 = t671 + t881;
+        let t895 = t775 + P::load(&prepared[22]);
+        // mass matrix M_b that couples the base acceleration
+        let t896 = t553 - (t815 + t816 + t848);
+        let t897 = t671 - (t817 + t818 + t849);
+        let t898 = t775 - (t819 + t820 + t850);
+        // Coriolis matrix C_p, natural factorisation
+        let t899 = P::mul_sub(platform_velocity[5], t825, platform_velocity[4] * t826);
+        let t900 = P::mul_add(platform_velocity[5], t828, platform_velocity[4] * t827);
+        let t901 = P::mul_add(platform_velocity[5], t827, platform_velocity[4] * t829);
+        let t902 = P::mul_add(platform_velocity[5], t851, platform_velocity[3] * t826);
+        let t903 = P::mul_add(platform_velocity[5], t826, platform_velocity[3] * t829);
+        let t904 = P::mul_add(platform_velocity[4], t851, platform_velocity[3] * t825);
+        let t905 = P::mul_add(platform_velocity[4], t825, platform_velocity[3] * t828);
+        // mass of payload and platform-side leg ends
+        let t906 = P::load(&prepared[23]);
+        // mass matrix M_p of the platform
+        let t907 = t811 - P::lane(t764, 1);
+        mass_matrix_p[0][4] = t907;
+        mass_matrix_p[4][0] = t907;
+        let t908 = t813 - P::lane(t765, 2);
+        mass_matrix_p[1][5] = t908;
+        mass_matrix_p[5][1] = t908;
+        let t909 = t812 - P::lane(t768, 0);
+        mass_matrix_p[2][3] = t909;
+        mass_matrix_p[3][2] = t909;
+        let t910 = P::lane(t563, 1) - t825;
+        mass_matrix_p[3][4] = t910;
+        mass_matrix_p[4][3] = t910;
+        let t911 = P::lane(t563, 2) - t826;
+        mass_matrix_p[3][5] = t911;
+        mass_matrix_p[5][3] = t911;
+        let t912 = P::lane(t686, 2) - t827;
+        mass_matrix_p[4][5] = t912;
+        mass_matrix_p[5][4] = t912;
+        // mass matrix of the legs
+        let t913 = -P::lane(t764, 0);
+        mass_matrix_p[0][3] = t913;
+        mass_matrix_p[3][0] = t913;
+        let t914 = -P::lane(t765, 1);
+        mass_matrix_p[1][4] = t914;
+        mass_matrix_p[4][1] = t914;
+        let t915 = -P::lane(t768, 2);
+        mass_matrix_p[2][5] = t915;
+        mass_matrix_p[5][2] = t915;
+        // mass matrix M_p of the platform
+        let t916 = -(P::lane(t764, 2) + t812);
+        mass_matrix_p[0][5] = t916;
+        mass_matrix_p[5][0] = t916;
+        let t917 = -(P::lane(t765, 0) + t811);
+        mass_matrix_p[1][3] = t917;
+        mass_matrix_p[3][1] = t917;
+        let t918 = -(P::lane(t768, 1) + t813);
+        mass_matrix_p[2][4] = t918;
+        mass_matrix_p[4][2] = t918;
+        mass_matrix_p[0][0] = P::lane(t553 + t906, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t553, 1);
+        mass_matrix_p[0][2] = P::lane(t553, 2);
+        mass_matrix_p[1][0] = P::lane(t553, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t894, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t671, 2);
+        mass_matrix_p[2][0] = P::lane(t553, 2);
+        mass_matrix_p[2][1] = P::lane(t671, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t895, 2);
+        mass_matrix_p[3][3] = prepared[24][1] - t814 + P::lane(t563, 0);
+        mass_matrix_p[4][4] = P::lane(t686, 1) + (prepared[24][1] - t799);
+        mass_matrix_p[5][5] = P::lane(t784, 2) + (prepared[24][1] - t801);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][0] = P::lane(t677, 0);
+        coriolis_matrix_p[0][1] = P::lane(t677, 1);
+        coriolis_matrix_p[0][2] = P::lane(t677, 2);
+        coriolis_matrix_p[0][3] = -P::lane(t703, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = t891 - P::lane(t703, 1);
+        coriolis_matrix_p[0][5] = -(P::lane(t703, 2) + t892);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][0] = P::lane(t678, 0);
+        coriolis_matrix_p[1][1] = P::lane(t678, 1);
+        coriolis_matrix_p[1][2] = P::lane(t678, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][3] = -(t891 + P::lane(t704, 0));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = -P::lane(t704, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = t893 - P::lane(t704, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][0] = P::lane(t679, 0);
+        coriolis_matrix_p[2][1] = P::lane(t679, 1);
+        coriolis_matrix_p[2][2] = P::lane(t679, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[2][3] = t892 - P::lane(t705, 0);
+        coriolis_matrix_p[2][4] = -(t893 + P::lane(t705, 1));
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = -P::lane(t705, 2);
+        coriolis_matrix_p[3][0] = P::lane(t664, 0);
+        coriolis_matrix_p[3][1] = P::lane(t664, 1);
+        coriolis_matrix_p[3][2] = P::lane(t664, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = t899 + P::lane(t696, 0);
+        coriolis_matrix_p[3][4] = P::lane(t696, 1) - t900;
+        coriolis_matrix_p[3][5] = P::lane(t696, 2) + t901;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[4][0] = P::lane(t665, 0);
+        coriolis_matrix_p[4][1] = P::lane(t665, 1);
+        coriolis_matrix_p[4][2] = P::lane(t665, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[4][3] = t902 + P::lane(t697, 0);
+        coriolis_matrix_p[4][4] = P::lane(t697, 1) - P::mul_sub(platform_velocity[5], t825, t856);
+        coriolis_matrix_p[4][5] = P::lane(t697, 2) - t903;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[5][0] = P::lane(t666, 0);
+        coriolis_matrix_p[5][1] = P::lane(t666, 1);
+        coriolis_matrix_p[5][2] = P::lane(t666, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[5][3] = P::lane(t698, 0) - t904;
+        coriolis_matrix_p[5][4] = P::lane(t698, 1) + t905;
+        coriolis_matrix_p[5][5] = P::lane(t698, 2) + P::mul_sub(platform_velocity[4], t826, t856);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t184, 0);
+        jacobian_dp[0][1] = P::lane(t186, 0);
+        jacobian_dp[0][2] = P::lane(t188, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t869, 0);
+        jacobian_dp[0][4] = P::lane(t871, 0);
+        jacobian_dp[0][5] = P::lane(t873, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t184, 1);
+        jacobian_dp[1][1] = P::lane(t186, 1);
+        jacobian_dp[1][2] = P::lane(t188, 1);
+        (
+            t184, t186, t188, t233, t234, t235, t664, t665, t666, t677, t678, t679, t863, t864,
+            t865, t866, t867, t868, t869, t870, t871, t872, t873, t874, t875, t876, t877, t878,
+            t879, t880, t882, t883, t884, t885, t886, t887, t888, t889, t890, t896, t897, t898,
+        )
+    };
+    {
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t869, 1);
+        jacobian_dp[1][4] = P::lane(t871, 1);
+        jacobian_dp[1][5] = P::lane(t873, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t184, 2);
+        jacobian_dp[2][1] = P::lane(t186, 2);
+        jacobian_dp[2][2] = P::lane(t188, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t869, 2);
+        jacobian_dp[2][4] = P::lane(t871, 2);
+        jacobian_dp[2][5] = P::lane(t873, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t233, 0);
+        jacobian_dp[3][1] = P::lane(t234, 0);
+        jacobian_dp[3][2] = P::lane(t235, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t870, 0);
+        jacobian_dp[3][4] = P::lane(t872, 0);
+        jacobian_dp[3][5] = P::lane(t874, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t233, 1);
+        jacobian_dp[4][1] = P::lane(t234, 1);
+        jacobian_dp[4][2] = P::lane(t235, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t870, 1);
+        jacobian_dp[4][4] = P::lane(t872, 1);
+        jacobian_dp[4][5] = P::lane(t874, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t233, 2);
+        jacobian_dp[5][1] = P::lane(t234, 2);
+        jacobian_dp[5][2] = P::lane(t235, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t870, 2);
+        jacobian_dp[5][4] = P::lane(t872, 2);
+        jacobian_dp[5][5] = P::lane(t874, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t896, 0);
+        mass_matrix_b[0][1] = P::lane(t896, 1);
+        mass_matrix_b[0][2] = P::lane(t896, 2);
+        mass_matrix_b[0][3] = P::lane(t882, 0);
+        mass_matrix_b[0][4] = P::lane(t882, 1);
+        mass_matrix_b[0][5] = P::lane(t882, 2);
+        mass_matrix_b[1][0] = P::lane(t897, 0);
+        mass_matrix_b[1][1] = P::lane(t897, 1);
+        mass_matrix_b[1][2] = P::lane(t897, 2);
+        mass_matrix_b[1][3] = P::lane(t883, 0);
+        mass_matrix_b[1][4] = P::lane(t883, 1);
+        mass_matrix_b[1][5] = P::lane(t883, 2);
+        mass_matrix_b[2][0] = P::lane(t898, 0);
+        mass_matrix_b[2][1] = P::lane(t898, 1);
+        mass_matrix_b[2][2] = P::lane(t898, 2);
+        mass_matrix_b[2][3] = P::lane(t884, 0);
+        mass_matrix_b[2][4] = P::lane(t884, 1);
+        mass_matrix_b[2][5] = P::lane(t884, 2);
+        mass_matrix_b[3][0] = -P::lane(t885, 0);
+        mass_matrix_b[3][1] = -P::lane(t885, 1);
+        mass_matrix_b[3][2] = -P::lane(t885, 2);
+        mass_matrix_b[3][3] = -P::lane(t863, 0);
+        mass_matrix_b[3][4] = -P::lane(t863, 1);
+        mass_matrix_b[3][5] = -P::lane(t863, 2);
+        mass_matrix_b[4][0] = -P::lane(t886, 0);
+        mass_matrix_b[4][1] = -P::lane(t886, 1);
+        mass_matrix_b[4][2] = -P::lane(t886, 2);
+        mass_matrix_b[4][3] = -P::lane(t864, 0);
+        mass_matrix_b[4][4] = -P::lane(t864, 1);
+        mass_matrix_b[4][5] = -P::lane(t864, 2);
+        mass_matrix_b[5][0] = -P::lane(t887, 0);
+        mass_matrix_b[5][1] = -P::lane(t887, 1);
+        mass_matrix_b[5][2] = -P::lane(t887, 2);
+        mass_matrix_b[5][3] = -P::lane(t865, 0);
+        mass_matrix_b[5][4] = -P::lane(t865, 1);
+        mass_matrix_b[5][5] = -P::lane(t865, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[0][0] = P::lane(t677, 0);
+        coriolis_matrix_b[0][1] = P::lane(t677, 1);
+        coriolis_matrix_b[0][2] = P::lane(t677, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = P::lane(t888, 0);
+        coriolis_matrix_b[0][4] = P::lane(t888, 1);
+        coriolis_matrix_b[0][5] = P::lane(t888, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[1][0] = P::lane(t678, 0);
+        coriolis_matrix_b[1][1] = P::lane(t678, 1);
+        coriolis_matrix_b[1][2] = P::lane(t678, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[1][3] = P::lane(t889, 0);
+        coriolis_matrix_b[1][4] = P::lane(t889, 1);
+        coriolis_matrix_b[1][5] = P::lane(t889, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[2][0] = P::lane(t679, 0);
+        coriolis_matrix_b[2][1] = P::lane(t679, 1);
+        coriolis_matrix_b[2][2] = P::lane(t679, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[2][3] = P::lane(t890, 0);
+        coriolis_matrix_b[2][4] = P::lane(t890, 1);
+        coriolis_matrix_b[2][5] = P::lane(t890, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[3][0] = P::lane(t664, 0);
+        coriolis_matrix_b[3][1] = P::lane(t664, 1);
+        coriolis_matrix_b[3][2] = P::lane(t664, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[3][3] = -P::lane(t866, 0);
+        coriolis_matrix_b[3][4] = -P::lane(t866, 1);
+        coriolis_matrix_b[3][5] = -P::lane(t866, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[4][0] = P::lane(t665, 0);
+        coriolis_matrix_b[4][1] = P::lane(t665, 1);
+        coriolis_matrix_b[4][2] = P::lane(t665, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[4][3] = -P::lane(t867, 0);
+        coriolis_matrix_b[4][4] = -P::lane(t867, 1);
+        coriolis_matrix_b[4][5] = -P::lane(t867, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_b[5][0] = P::lane(t666, 0);
+        coriolis_matrix_b[5][1] = P::lane(t666, 1);
+        coriolis_matrix_b[5][2] = P::lane(t666, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[5][3] = -P::lane(t868, 0);
+        coriolis_matrix_b[5][4] = -P::lane(t868, 1);
+        coriolis_matrix_b[5][5] = -P::lane(t868, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t184, 0);
+        jacobian_db[0][1] = P::lane(t186, 0);
+        jacobian_db[0][2] = P::lane(t188, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t875, 0);
+        jacobian_db[0][4] = P::lane(t877, 0);
+        jacobian_db[0][5] = P::lane(t879, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t184, 1);
+        jacobian_db[1][1] = P::lane(t186, 1);
+        jacobian_db[1][2] = P::lane(t188, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t875, 1);
+        jacobian_db[1][4] = P::lane(t877, 1);
+        jacobian_db[1][5] = P::lane(t879, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t184, 2);
+        jacobian_db[2][1] = P::lane(t186, 2);
+        jacobian_db[2][2] = P::lane(t188, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t875, 2);
+        jacobian_db[2][4] = P::lane(t877, 2);
+        jacobian_db[2][5] = P::lane(t879, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t233, 0);
+        jacobian_db[3][1] = P::lane(t234, 0);
+        jacobian_db[3][2] = P::lane(t235, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t876, 0);
+        jacobian_db[3][4] = P::lane(t878, 0);
+        jacobian_db[3][5] = P::lane(t880, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t233, 1);
+        jacobian_db[4][1] = P::lane(t234, 1);
+        jacobian_db[4][2] = P::lane(t235, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t876, 1);
+        jacobian_db[4][4] = P::lane(t878, 1);
+        jacobian_db[4][5] = P::lane(t880, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t233, 2);
+        jacobian_db[5][1] = P::lane(t234, 2);
+        jacobian_db[5][2] = P::lane(t235, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t876, 2);
+        jacobian_db[5][4] = P::lane(t878, 2);
+        jacobian_db[5][5] = P::lane(t880, 2);
+    }
+}
+
+/// What follows from the parameters alone, for \`inverse_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 28x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 28],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t2 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t3 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t4 = mul_add(t2, parameters.upper_mass[4], t3 * parameters.upper_mass[5]);
+    let t5 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t6 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t7 = mul_add(t5, parameters.upper_mass[0], t6 * parameters.upper_mass[1]);
+    let t8 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t9 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t10 = mul_add(t8, parameters.upper_mass[2], t9 * parameters.upper_mass[3]);
+    let t11 = mul_add(t1, parameters.payload_mass, t4 + (t7 + t10));
+    prepared[18][0] = t11 - parameters.payload_inertia[0][1];
+    let t12 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t13 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t14 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t15 = mul_add(parameters.upper_mass[4], t13, parameters.upper_mass[5] * t14);
+    let t16 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t17 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t18 = mul_add(parameters.upper_mass[0], t16, parameters.upper_mass[1] * t17);
+    let t19 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t20 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t21 = mul_add(parameters.upper_mass[2], t19, parameters.upper_mass[3] * t20);
+    let t22 = mul_add(t12, parameters.payload_mass, t15 + (t18 + t21));
+    prepared[18][1] = t22 - parameters.payload_inertia[1][2];
+    let t23 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t24 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t25 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t26 = mul_add(t24, parameters.upper_mass[4], t25 * parameters.upper_mass[5]);
+    let t27 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t28 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t29 = mul_add(t27, parameters.upper_mass[0], t28 * parameters.upper_mass[1]);
+    let t30 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t31 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t32 = mul_add(t30, parameters.upper_mass[2], t31 * parameters.upper_mass[3]);
+    let t33 = mul_add(t23, parameters.payload_mass, t26 + (t29 + t32));
+    let t34 = t33 - parameters.payload_inertia[0][2];
+    prepared[18][2] = t34;
+    prepared[18][3] = t34;
+    let t35 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t36 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t37 = t36 + parameters.payload_inertia[2][2];
+    let t38 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t39 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t40 = mul_add(t38, parameters.upper_mass[4], t39 * parameters.upper_mass[5]);
+    let t41 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t42 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t43 = mul_add(t41, parameters.upper_mass[0], t42 * parameters.upper_mass[1]);
+    let t44 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t45 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t46 = mul_add(t44, parameters.upper_mass[2], t45 * parameters.upper_mass[3]);
+    let t47 = mul_add(t37, c(0.5), t40 + (t43 + t46));
+    let t48 = t47 - parameters.payload_inertia[0][0];
+    prepared[19][0] = mul_add(parameters.payload_mass, t35, t48);
+    let t49 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t50 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t51 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t52 = mul_add(parameters.upper_mass[4], t50, parameters.upper_mass[5] * t51);
+    let t53 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t54 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t55 = mul_add(parameters.upper_mass[0], t53, parameters.upper_mass[1] * t54);
+    let t56 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t57 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t58 = mul_add(parameters.upper_mass[2], t56, parameters.upper_mass[3] * t57);
+    let t59 = mul_add(t37, c(0.5), t52 + (t55 + t58));
+    let t60 = t59 - parameters.payload_inertia[1][1];
+    prepared[19][1] = mul_add(parameters.payload_mass, t49, t60);
+    let t61 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t62 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t63 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t64 = mul_add(parameters.upper_mass[4], t62, parameters.upper_mass[5] * t63);
+    let t65 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t66 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t67 = mul_add(parameters.upper_mass[0], t65, parameters.upper_mass[1] * t66);
+    let t68 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t69 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t70 = mul_add(parameters.upper_mass[2], t68, parameters.upper_mass[3] * t69);
+    let t71 = mul_add(t37, c(0.5), t64 + (t67 + t70));
+    let t72 = t71 - parameters.payload_inertia[2][2];
+    let t73 = mul_add(parameters.payload_mass, t61, t72);
+    prepared[19][2] = t73;
+    prepared[19][3] = t73;
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t74 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t74;
+    let t75 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][1] = t75;
+    let t76 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[12][2] = t76;
+    prepared[12][3] = t76;
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t77 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[13][0] = t77;
+    let t78 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[13][1] = t78;
+    let t79 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[13][2] = t79;
+    prepared[13][3] = t79;
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t80 = mul_add(parameters.lower_com_distance[0], t74, parameters.lower_inertia[0]);
+    let t81 = t80 + parameters.upper_inertia[0];
+    prepared[16][0] = mul_add(parameters.upper_com_distance[0], t77, t81);
+    let t82 = mul_add(parameters.lower_com_distance[2], t75, parameters.lower_inertia[2]);
+    let t83 = t82 + parameters.upper_inertia[2];
+    prepared[16][1] = mul_add(parameters.upper_com_distance[2], t78, t83);
+    let t84 = mul_add(parameters.lower_com_distance[4], t76, parameters.lower_inertia[4]);
+    let t85 = t84 + parameters.upper_inertia[4];
+    let t86 = mul_add(parameters.upper_com_distance[4], t79, t85);
+    prepared[16][2] = t86;
+    prepared[16][3] = t86;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t87 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[14][0] = t87;
+    let t88 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[14][1] = t88;
+    let t89 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[14][2] = t89;
+    prepared[14][3] = t89;
+    // first moment of payload and platform-side leg ends
+    let t90 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t91 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t90);
+    let t92 = parameters.platform_point[1][0] * parameters.upper_mass[1];
+    let t93 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t92);
+    let t94 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t95 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t94);
+    let t96 = t91 + (t93 + t95);
+    prepared[20][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t96);
+    let t97 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t98 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t97);
+    let t99 = parameters.platform_point[1][1] * parameters.upper_mass[1];
+    let t100 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t99);
+    let t101 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t102 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t101);
+    let t103 = t98 + (t100 + t102);
+    prepared[20][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t103);
+    let t104 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t105 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t104);
+    let t106 = parameters.platform_point[1][2] * parameters.upper_mass[1];
+    let t107 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t106);
+    let t108 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t109 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t108);
+    let t110 = t105 + (t107 + t109);
+    let t111 = mul_add(parameters.payload_com[2], parameters.payload_mass, t110);
+    prepared[20][2] = t111;
+    prepared[20][3] = t111;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t112 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[15][0] = t112;
+    let t113 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[15][1] = t113;
+    let t114 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[15][2] = t114;
+    prepared[15][3] = t114;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t115 = mul_add(parameters.lower_com_distance[1], t87, parameters.lower_inertia[1]);
+    let t116 = t115 + parameters.upper_inertia[1];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[1], t112, t116);
+    let t117 = mul_add(parameters.lower_com_distance[3], t88, parameters.lower_inertia[3]);
+    let t118 = t117 + parameters.upper_inertia[3];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[3], t113, t118);
+    let t119 = mul_add(parameters.lower_com_distance[5], t89, parameters.lower_inertia[5]);
+    let t120 = t119 + parameters.upper_inertia[5];
+    let t121 = mul_add(parameters.upper_com_distance[5], t114, t120);
+    prepared[17][2] = t121;
+    prepared[17][3] = t121;
+    // mass of payload and platform-side leg ends
+    let t122 = parameters.upper_mass[3] + parameters.upper_mass[2];
+    let t123 = parameters.upper_mass[1] + parameters.upper_mass[0] + t122;
+    let t124 = parameters.upper_mass[5] + parameters.upper_mass[4] + t123;
+    let t125 = parameters.payload_mass + t124;
+    prepared[27][0] = t125;
+    prepared[27][1] = t125;
+    prepared[27][2] = t125;
+    prepared[27][3] = t125;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[2][0];
+    prepared[1][2] = parameters.platform_point[4][0];
+    prepared[1][3] = parameters.platform_point[4][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[2][2];
+    prepared[2][2] = parameters.platform_point[4][2];
+    prepared[2][3] = parameters.platform_point[4][2];
+    prepared[3][0] = parameters.platform_point[1][1];
+    prepared[3][1] = parameters.platform_point[3][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[1][0];
+    prepared[4][1] = parameters.platform_point[3][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[0][0];
+    prepared[7][1] = parameters.base_point[2][0];
+    prepared[7][2] = parameters.base_point[4][0];
+    prepared[7][3] = parameters.base_point[4][0];
+    prepared[8][0] = parameters.base_point[1][1];
+    prepared[8][1] = parameters.base_point[3][1];
+    prepared[8][2] = parameters.base_point[5][1];
+    prepared[8][3] = parameters.base_point[5][1];
+    prepared[9][0] = parameters.base_point[0][2];
+    prepared[9][1] = parameters.base_point[2][2];
+    prepared[9][2] = parameters.base_point[4][2];
+    prepared[9][3] = parameters.base_point[4][2];
+    prepared[10][0] = parameters.base_point[1][0];
+    prepared[10][1] = parameters.base_point[3][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[1][2];
+    prepared[11][1] = parameters.base_point[3][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[21][0] = parameters.rest_length[0];
+    prepared[21][1] = parameters.rest_length[2];
+    prepared[21][2] = parameters.rest_length[4];
+    prepared[21][3] = parameters.rest_length[4];
+    prepared[22][0] = parameters.axial_damping[0];
+    prepared[22][1] = parameters.axial_damping[2];
+    prepared[22][2] = parameters.axial_damping[4];
+    prepared[22][3] = parameters.axial_damping[4];
+    prepared[23][0] = parameters.rest_length[1];
+    prepared[23][1] = parameters.rest_length[3];
+    prepared[23][2] = parameters.rest_length[5];
+    prepared[23][3] = parameters.rest_length[5];
+    prepared[24][0] = parameters.axial_damping[1];
+    prepared[24][1] = parameters.axial_damping[3];
+    prepared[24][2] = parameters.axial_damping[5];
+    prepared[24][3] = parameters.axial_damping[5];
+    prepared[25][0] = parameters.axial_stiffness[0];
+    prepared[25][1] = parameters.axial_stiffness[2];
+    prepared[25][2] = parameters.axial_stiffness[4];
+    prepared[25][3] = parameters.axial_stiffness[4];
+    prepared[26][0] = parameters.axial_stiffness[1];
+    prepared[26][1] = parameters.axial_stiffness[3];
+    prepared[26][2] = parameters.axial_stiffness[5];
+    prepared[26][3] = parameters.axial_stiffness[5];
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 28x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 28],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t25 = t18 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    let t30 = mul_add(t19, P::splat(P::lane(t15, 1)), t25);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t31 = mul_add(t12, P::splat(P::lane(t15, 2)), t27);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 0)), t26);
+    let t33 = mul_add(t13, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    let t35 = t18 * P::splat(P::lane(t14, 2));
+    let t36 = mul_add(t20, P::splat(P::lane(t17, 1)), t30);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t31);
+    // constant and copied elements
+    let t38 = P::load(&prepared[7]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t39 = mul_add(t20, P::splat(P::lane(t17, 0)), t34);
+    let t40 = mul_add(t19, P::splat(P::lane(t15, 2)), t35);
+    // legs 1, 3, 5: platform joint from the base point
+    let t41 = t32 + P::splat(P::lane(t22, 0)) - t38;
+    let t42 = P::splat(P::lane(t22, 1)) + t33 - t21;
+    // constant and copied elements
+    let t43 = P::load(&prepared[8]);
+    let t44 = P::load(&prepared[9]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t45 = mul_add(t20, P::splat(P::lane(t17, 2)), t40);
+    // legs 2, 4, 6: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 1)) + t36 - t43;
+    // legs 1, 3, 5: platform joint from the base point
+    let t47 = P::splat(P::lane(t22, 2)) + t37 - t44;
+    // constant and copied elements
+    let t48 = P::load(&prepared[10]);
+    let t49 = P::load(&prepared[11]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t50 = P::splat(P::lane(t22, 0)) + t39 - t48;
+    // angular velocity of the base
+    let t51 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t52 = t1 * P::splat(platform_velocity[4]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t53 = P::splat(P::lane(t22, 2)) + t45 - t49;
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t51);
+    // velocity of the platform origin relative to the base
+    let t55 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular acceleration of the platform
+    let t56 = t1 * P::splat(platform_acceleration[4]);
+    // angular velocity of the platform
+    let t57 = mul_add(t2, P::splat(platform_velocity[3]), t52);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t47, t47, mul_add(t41, t41, t42 * t42)));
+    // angular velocity of the base
+    let t60 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t55);
+    // angular acceleration of the platform
+    let t62 = mul_add(t2, P::splat(platform_acceleration[3]), t56);
+    // angular velocity of the platform
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t57);
+    // legs 2, 4, 6: actuator length d
+    let t64 = sqrt(mul_add(t53, t53, mul_add(t50, t50, t46 * t46)));
+    // platform origin seen from the base
+    let t65 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // rotation of the platform seen from the base
+    let t67 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    // angular acceleration of the platform
+    let t69 = mul_add(t5, P::splat(platform_acceleration[5]), t62);
+    // angular velocity of the platform relative to the base
+    let t70 = t60 - t63;
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t60, 1), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t72 = P::triple([P::lane(t60, 2), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t73 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // angular acceleration of the base
+    let t74 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // velocity of the platform origin relative to the base
+    let t75 = mul_add(t65, t72, neg_mul_add(t58, t71, t68));
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular acceleration of the platform
+    let t77 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    let t78 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    // rotation of the platform seen from the base
+    let t79 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t80 = mul_sub(t63, t67, t14 * t73);
+    // rotation of the platform seen from the base
+    let t81 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t82 = w(1.0) / t59;
+    // angular acceleration of the base
+    let t83 = mul_add(t5, P::splat(base_acceleration[5]), t74);
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t64;
+    // rotation of the platform seen from the base
+    let t85 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t86 = mul_sub(t63, t76, t15 * t73);
+    // rotation of the platform seen from the base
+    let t87 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t88 = mul_sub(t63, t81, t17 * t73);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t89 = neg_mul_add(t32, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // angular velocity of the base
+    let t90 = P::triple([P::lane(t60, 0), P::lane(t60, 2), P::lane(t60, 0)]);
+    let t91 = P::triple([P::lane(t60, 1), P::lane(t60, 1), P::lane(t60, 2)]);
+    // acceleration of the base origin less gravity
+    let t92 = base_acceleration[0] - parameters.gravity[0];
+    let t93 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t94 = P::triple([P::lane(t60, 2), P::lane(t60, 2), P::lane(t60, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t95 = t90 * t91;
+    // acceleration of the platform origin less gravity
+    let t96 = parameters.gravity[0] - platform_acceleration[0];
+    let t97 = t1 * P::splat(parameters.gravity[1] - platform_acceleration[1]);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = mul_add(t73, t80, mul_sub(t78, t79, t67 * t77));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t99 = neg_mul_add(t37, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t100 = mul_add(t37, P::splat(P::lane(t70, 0)), t89);
+    // angular velocity of the base
+    let t101 = P::triple([P::lane(t60, 1), P::lane(t60, 0), P::lane(t60, 1)]);
+    // angular velocity of the platform
+    let t102 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t103 = mul_add(t73, t86, mul_sub(t78, t85, t76 * t77));
+    let t104 = P::triple([P::lane(t80, 2), P::lane(t80, 0), P::lane(t80, 1)]);
+    let t105 = mul_add(t73, t88, mul_sub(t78, t87, t77 * t81));
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t106 = t42 * t82;
+    // acceleration of the base origin less gravity
+    let t107 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t108 = mul_add(t101, t101, t94 * t94);
+    // acceleration of the platform origin less gravity
+    let t109 = parameters.gravity[2] - platform_acceleration[2];
+    // acceleration per platform coordinate of points of the platform
+    let t110 = neg_mul_add(t102, t104, t98);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t111 = mul_add(t33, P::splat(P::lane(t70, 2)), t99);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t112 = neg_mul_add(t39, P::splat(P::lane(t70, 2)), P::splat(P::lane(t75, 1)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t113 = neg_mul_add(t33, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // angular acceleration of the base
+    let t114 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t115 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    let t116 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t117 = t41 * t82;
+    // acceleration of the base origin less gravity
+    let t118 = mul_add(t5, P::splat(t107), mul_add(t2, P::splat(t92), t93));
+    // acceleration per base coordinate of points that move with the base
+    let t119 = mul_sub(t90, t91, t114);
+    // angular acceleration of the base
+    let t120 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t121 = P::triple([P::lane(t95, 2), P::lane(t95, 0), P::lane(t95, 1)]);
+    // acceleration of the platform origin less gravity
+    let t122 = mul_add(t5, P::splat(t109), mul_add(t2, P::splat(t96), t97));
+    // acceleration per platform coordinate of points of the platform
+    let t123 = neg_mul_add(t102, t115, t103);
+    let t124 = neg_mul_add(t102, t116, t105);
+    // acceleration per base coordinate of points that move with the base
+    let t125 = t120 + t121;
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t126 = neg_mul_add(t45, P::splat(P::lane(t70, 1)), P::splat(P::lane(t75, 0)));
+    let t127 = mul_add(t45, P::splat(P::lane(t70, 0)), t112);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t128 = mul_add(t32, P::splat(P::lane(t70, 1)), t113);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t129 = mul_add(t41, P::splat(P::lane(t60, 2)), t100);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t130 = t46 * t84;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t131 = t47 * t82;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t132 = t9 * P::splat(P::lane(t110, 1));
+    let t133 = t21 * P::splat(P::lane(t108, 1));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t134 = mul_add(t36, P::splat(P::lane(t70, 2)), t126);
+    let t135 = neg_mul_add(t36, P::splat(P::lane(t70, 0)), P::splat(P::lane(t75, 2)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t136 = mul_add(t47, P::splat(P::lane(t60, 1)), t111);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t137 = t50 * t84;
+    // legs 1, 3, 5: actuator velocity d'
+    let t138 = mul_add(t128, t131, mul_add(t111, t117, t100 * t106));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t139 = neg_mul_add(t47, P::splat(P::lane(t60, 0)), t129);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t140 = t9 * P::splat(P::lane(t110, 0));
+    let t141 = t21 * P::splat(P::lane(t119, 0));
+    let t142 = neg_mul_add(t13, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t143 = mul_add(t44, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t144 = mul_add(t39, P::splat(P::lane(t70, 1)), t135);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t145 = neg_mul_add(t42, P::splat(P::lane(t60, 2)), t136);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t146 = mul_add(t50, P::splat(P::lane(t60, 2)), t127);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t147 = mul_add(t42, P::splat(P::lane(t60, 0)), t128);
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t148 = t53 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t149 = neg_mul_add(t13, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t150 = mul_add(t44, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    let t151 = t142 - mul_add(t12, P::splat(P::lane(t123, 1)), t132);
+    let t152 = mul_sub(t38, P::splat(P::lane(t125, 1)), t133) + t143;
+    let t153 = t9 * P::splat(P::lane(t110, 2));
+    let t154 = t21 * P::splat(P::lane(t125, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t155 = t18 * P::splat(P::lane(t110, 1));
+    let t156 = t43 * P::splat(P::lane(t108, 1));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t157 = mul_add(t53, P::splat(P::lane(t60, 1)), t134);
+    // legs 2, 4, 6: actuator velocity d'
+    let t158 = mul_add(t144, t148, mul_add(t134, t137, t127 * t130));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t159 = neg_mul_add(t53, P::splat(P::lane(t60, 0)), t146);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t41, P::splat(P::lane(t60, 1)), t147);
+    let t161 = t82 * neg_mul_add(t106, t138, t139);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t162 = t149 - mul_add(t12, P::splat(P::lane(t123, 0)), t140);
+    let t163 = t150 - mul_sub(t38, P::splat(P::lane(t108, 0)), t141);
+    let t164 = t151 + t152;
+    let t165 = neg_mul_add(t13, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t166 = neg_mul_add(t44, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t167 = t18 * P::splat(P::lane(t110, 0));
+    let t168 = t43 * P::splat(P::lane(t119, 0));
+    let t169 = neg_mul_add(t20, P::splat(P::lane(t124, 1)), P::splat(P::lane(t122, 1)));
+    let t170 = mul_add(t49, P::splat(P::lane(t119, 1)), P::splat(P::lane(t118, 1)));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t171 = neg_mul_add(t46, P::splat(P::lane(t60, 2)), t157);
+    let t172 = mul_add(t46, P::splat(P::lane(t60, 0)), t144);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t173 = t82 * neg_mul_add(t117, t138, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t174 = t162 + t163;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t175 = neg_mul_add(t20, P::splat(P::lane(t124, 0)), P::splat(P::lane(t122, 0)));
+    let t176 = mul_add(t49, P::splat(P::lane(t125, 0)), P::splat(P::lane(t118, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t177 = t165 - mul_add(t12, P::splat(P::lane(t123, 2)), t153);
+    let t178 = mul_add(t38, P::splat(P::lane(t119, 2)), t154) + t166;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t179 = t169 - mul_add(t19, P::splat(P::lane(t123, 1)), t155);
+    let t180 = mul_sub(t48, P::splat(P::lane(t125, 1)), t156) + t170;
+    let t181 = t18 * P::splat(P::lane(t110, 2));
+    let t182 = t43 * P::splat(P::lane(t125, 2));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t183 = neg_mul_add(t50, P::splat(P::lane(t60, 1)), t172);
+    let t184 = t84 * neg_mul_add(t130, t158, t159);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t185 = t82 * neg_mul_add(t131, t138, t160);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t186 = t177 + t178;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t187 = t175 - mul_add(t19, P::splat(P::lane(t123, 0)), t167);
+    let t188 = t176 - mul_sub(t48, P::splat(P::lane(t108, 0)), t168);
+    let t189 = t179 + t180;
+    let t190 = neg_mul_add(t20, P::splat(P::lane(t124, 2)), P::splat(P::lane(t122, 2)));
+    let t191 = neg_mul_add(t49, P::splat(P::lane(t108, 2)), P::splat(P::lane(t118, 2)));
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t192 = t84 * neg_mul_add(t137, t158, t171);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t193 = mul_add(t131, t186, mul_add(t117, t174, t106 * t164));
+    let t194 = mul_add(t185, t185, mul_add(t173, t173, t161 * t161));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t195 = t187 + t188;
+    let t196 = t190 - mul_add(t19, P::splat(P::lane(t123, 2)), t181);
+    let t197 = mul_add(t48, P::splat(P::lane(t119, 2)), t182) + t191;
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t198 = t84 * neg_mul_add(t148, t158, t183);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t199 = neg_mul_add(t59, t194, t193);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t200 = t196 + t197;
+    let t201 = mul_add(t198, t198, mul_add(t192, t192, t184 * t184));
+    let t202 = mul_add(t148, t200, mul_add(t137, t195, t130 * t189));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t203 = t138 * w(2.0);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t204 = neg_mul_add(t64, t201, t202);
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t205 = P::load(&prepared[12]);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t206 = P::load(&prepared[13]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t207 = t82 * mul_add(t173, t203, neg_mul_add(t117, t199, t174));
+    let t208 = t82 * mul_add(t161, t203, neg_mul_add(t106, t199, t164));
+    let t209 = t82 * mul_add(t185, t203, neg_mul_add(t131, t199, t186));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t210 = t158 * w(2.0);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t211 = t82 * t205;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t212 = P::load(&prepared[14]);
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t213 = P::load(&prepared[15]);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t214 = P::load(&prepared[16]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t215 = t82 * t206;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t216 = t84 * mul_add(t192, t210, neg_mul_add(t137, t204, t195));
+    let t217 = t84 * mul_add(t184, t210, neg_mul_add(t130, t204, t189));
+    let t218 = t84 * mul_add(t198, t210, neg_mul_add(t148, t204, t200));
+    let t219 = t84 * t212;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t220 = mul_add(t162, t215, mul_add(t163, t211, t206 * t207));
+    let t221 = mul_add(t151, t215, mul_add(t152, t211, t206 * t208));
+    let t222 = mul_add(t177, t215, mul_add(t178, t211, t206 * t209));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t223 = t82 * t214;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t224 = P::load(&prepared[17]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t225 = t84 * t213;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t226 = neg_mul_add(t207, t223, t220);
+    let t227 = neg_mul_add(t208, t223, t221);
+    let t228 = neg_mul_add(t209, t223, t222);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t229 = mul_add(t187, t225, mul_add(t188, t219, t213 * t216));
+    let t230 = mul_add(t179, t225, mul_add(t180, t219, t213 * t217));
+    let t231 = mul_add(t196, t225, mul_add(t197, t219, t213 * t218));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t232 = t84 * t224;
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t233 = neg_mul_add(t216, t232, t229);
+    let t234 = neg_mul_add(t217, t232, t230);
+    let t235 = neg_mul_add(t218, t232, t231);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t236 = mul_sub(t33, t228, t37 * t227);
+    let t237 = mul_sub(t37, t226, t32 * t228);
+    let t238 = mul_sub(t32, t227, t33 * t226);
+    // first moments by platform coordinate of the payload's inertia force
+    let t239 = mul_add(t123, P::splat(prepared[19][0]), t110 * P::splat(prepared[18][0]));
+    // inertia less external wrench that the actuators must balance
+    let t240 = t1 * P::splat(external_wrench[1]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t241 = mul_add(t124, P::splat(prepared[18][2]), t239);
+    // inertia less external wrench that the actuators must balance
+    let t242 = mul_add(t2, P::splat(external_wrench[0]), t240);
+    // inertia force less weight, without the actuators' own shares
+    let t243 = t226 + t233;
+    let t244 = t227 + t234;
+    let t245 = t228 + t235;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t246 = neg_mul_add(t45, t234, mul_add(t36, t235, t236));
+    let t247 = neg_mul_add(t39, t235, mul_add(t45, t233, t237));
+    let t248 = neg_mul_add(t36, t233, mul_add(t39, t234, t238));
+    // first moments by platform coordinate of the payload's inertia force
+    let t249 = mul_sub(t122, P::splat(prepared[20][0]), t241);
+    let t250 = mul_add(t123, P::splat(prepared[18][0]), t110 * P::splat(prepared[19][1]));
+    // inertia less external wrench that the actuators must balance
+    let t251 = mul_add(t5, P::splat(external_wrench[2]), t242);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t252 = P::triple([P::lane(t131, 2), P::lane(t131, 0), P::lane(t131, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t253 = P::triple([P::lane(t117, 1), P::lane(t117, 2), P::lane(t117, 0)]);
+    let t254 = P::triple([P::lane(t131, 1), P::lane(t131, 2), P::lane(t131, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t255 = P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t256 = P::triple([P::lane(t243, 0), P::lane(t244, 0), P::lane(t245, 0)]);
+    let t257 = P::triple([P::lane(t243, 1), P::lane(t244, 1), P::lane(t245, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t258 = mul_add(t124, P::splat(prepared[18][1]), t250);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t259 = P::triple([P::lane(t117, 2), P::lane(t117, 0), P::lane(t117, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t260 = P::triple([P::lane(t106, 1), P::lane(t106, 2), P::lane(t106, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t261 = mul_sub(t254, t259, t252 * t253);
+    let t262 = mul_sub(t252, t260, t254 * t255);
+    // inertia force less weight, without the actuators' own shares
+    let t263 = P::triple([P::lane(t243, 2), P::lane(t244, 2), P::lane(t245, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t264 = P::triple([P::lane(t246, 0), P::lane(t247, 0), P::lane(t248, 0)]);
+    let t265 = P::triple([P::lane(t246, 1), P::lane(t247, 1), P::lane(t248, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t266 = mul_sub(t122, P::splat(prepared[20][1]), t258);
+    let t267 = mul_add(t123, P::splat(prepared[18][2]), t110 * P::splat(prepared[18][1]));
+    // inertia less external wrench that the actuators must balance
+    let t268 = P::triple([P::lane(t251, 2), P::lane(t251, 0), P::lane(t251, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t269 = P::triple([P::lane(t249, 2), P::lane(t249, 0), P::lane(t249, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t270 = mul_add(P::splat(parameters.payload_com[0]), t268, t269);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t271 = P::triple([P::lane(t246, 2), P::lane(t247, 2), P::lane(t248, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t272 = neg_mul_add(t122, P::splat(prepared[27][0]), t256 + t257 + t263);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t273 = t264 + t265 + t271;
+    // force along the actuator that balances the remaining wrench
+    let t274 = t130 * P::splat(P::lane(t261, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t275 = mul_add(t124, P::splat(prepared[19][2]), t267);
+    // force along the actuator that balances the remaining wrench
+    let t276 = mul_sub(t253, t255, t259 * t260);
+    let t277 = mul_add(t137, P::splat(P::lane(t262, 0)), t274);
+    let t278 = P::lane(t117, 1) * P::lane(t262, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t279 = mul_add(t123, P::splat(prepared[20][0]), t272);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t280 = mul_sub(t37, t117, t32 * t131);
+    let t281 = mul_sub(t32, t106, t33 * t117);
+    // first moments by platform coordinate of the payload's inertia force
+    let t282 = mul_sub(t122, P::splat(prepared[20][2]), t275);
+    let t283 = P::triple([P::lane(t266, 2), P::lane(t266, 0), P::lane(t266, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t284 = mul_add(P::splat(parameters.payload_com[1]), t268, t283);
+    let t285 = P::triple([P::lane(t270, 2), P::lane(t270, 0), P::lane(t270, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t286 = P::mul_add(P::lane(t117, 0), P::lane(t262, 0), t278);
+    // inertia less external wrench that the actuators must balance
+    let t287 = mul_add(t85, t285, neg_mul_add(t76, t270, t273));
+    // force along the actuator that balances the remaining wrench
+    let t288 = mul_add(t148, P::splat(P::lane(t276, 0)), t277);
+    let t289 = t130 * P::splat(P::lane(t261, 1));
+    // inertia force less weight, without the actuators' own shares
+    let t290 = mul_add(t110, P::splat(prepared[20][1]), t279);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t291 = mul_sub(t45, t137, t39 * t148);
+    let t292 = mul_sub(t39, t130, t36 * t137);
+    // force along the actuator that balances the remaining wrench
+    let t293 = mul_add(t137, P::splat(P::lane(t262, 1)), t289);
+    let t294 = P::mul_add(P::lane(t117, 2), P::lane(t262, 2), t286);
+    let t295 = t130 * P::splat(P::lane(t261, 2));
+    // inertia force less weight, without the actuators' own shares
+    let t296 = mul_add(t124, P::splat(prepared[20][2]), t290);
+    // first moments by platform coordinate of the payload's inertia force
+    let t297 = P::triple([P::lane(t282, 2), P::lane(t282, 0), P::lane(t282, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t298 = mul_add(P::splat(parameters.payload_com[2]), t268, t297);
+    let t299 = P::triple([P::lane(t284, 2), P::lane(t284, 0), P::lane(t284, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t300 = mul_add(t148, P::splat(P::lane(t276, 1)), t293);
+    let t301 = mul_add(t137, P::splat(P::lane(t262, 2)), t295);
+    let t302 = mul_sub(t291, P::splat(t294), t288 * P::splat(P::lane(t280, 0)));
+    let t303 = mul_sub(t292, P::splat(t294), t288 * P::splat(P::lane(t281, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t304 = neg_mul_add(t79, t299, mul_sub(t67, t284, t287));
+    let t305 = t296 - t251;
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t306 = mul_sub(t33, t131, t37 * t106);
+    // force along the actuator that balances the remaining wrench
+    let t307 = mul_add(t148, P::splat(P::lane(t276, 2)), t301);
+    let t308 = neg_mul_add(P::splat(P::lane(t280, 1)), t300, t302);
+    let t309 = neg_mul_add(P::splat(P::lane(t281, 1)), t300, t303);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t310 = mul_sub(t36, t148, t45 * t130);
+    // inertia less external wrench that the actuators must balance
+    let t311 = P::triple([P::lane(t298, 2), P::lane(t298, 0), P::lane(t298, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t312 = neg_mul_add(P::splat(P::lane(t280, 2)), t307, t308);
+    let t313 = neg_mul_add(P::splat(P::lane(t281, 2)), t307, t309);
+    // inertia less external wrench that the actuators must balance
+    let t314 = neg_mul_add(t87, t311, mul_add(t81, t298, t304));
+    // force along the actuator that balances the remaining wrench
+    let t315 = t261 * P::splat(P::lane(t305, 1));
+    let t316 = mul_add(t262, P::splat(P::lane(t305, 0)), t315);
+    let t317 = mul_sub(P::splat(t294), t310, t288 * P::splat(P::lane(t306, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t318 = mul_add(t2, P::splat(external_wrench[3]), t314);
+    // force along the actuator that balances the remaining wrench
+    let t319 = mul_add(t276, P::splat(P::lane(t305, 2)), t316);
+    let t320 = neg_mul_add(t300, P::splat(P::lane(t306, 1)), t317);
+    let t321 = P::triple([P::lane(t312, 2), P::lane(t312, 0), P::lane(t312, 1)]);
+    let t322 = P::triple([P::lane(t312, 1), P::lane(t312, 2), P::lane(t312, 0)]);
+    let t323 = P::triple([P::lane(t313, 1), P::lane(t313, 2), P::lane(t313, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t324 = mul_add(t1, P::splat(external_wrench[4]), t318);
+    // force along the actuator that balances the remaining wrench
+    let t325 = P::triple([P::lane(t313, 2), P::lane(t313, 0), P::lane(t313, 1)]);
+    let t326 = neg_mul_add(t307, P::splat(P::lane(t306, 2)), t320);
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t327 = P::triple([P::lane(t306, 0), P::lane(t280, 0), P::lane(t281, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t328 = mul_sub(t322, t325, t321 * t323);
+    // inertia less external wrench that the actuators must balance
+    let t329 = mul_add(t5, P::splat(external_wrench[5]), t324);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t330 = P::triple([P::lane(t306, 1), P::lane(t280, 1), P::lane(t281, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t331 = mul_add(P::splat(t294), t329, P::splat(P::lane(t319, 0)) * t327);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t332 = P::triple([P::lane(t306, 2), P::lane(t280, 2), P::lane(t281, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t333 = P::triple([P::lane(t326, 1), P::lane(t326, 2), P::lane(t326, 0)]);
+    let t334 = P::triple([P::lane(t326, 2), P::lane(t326, 0), P::lane(t326, 1)]);
+    let t335 = P::lane(t326, 1) * P::lane(t328, 1);
+    let t336 = mul_add(P::splat(P::lane(t319, 1)), t330, t331);
+    let t337 = P::mul_add(P::lane(t326, 0), P::lane(t328, 0), t335);
+    let t338 = mul_add(P::splat(P::lane(t319, 2)), t332, t336);
+    let t339 = mul_sub(t321, t333, t322 * t334);
+    let t340 = P::triple([P::lane(t288, 0), P::lane(t300, 0), P::lane(t307, 0)]);
+    let t341 = c(1.0) / P::mul_add(P::lane(t326, 2), P::lane(t328, 2), t337);
+    let t342 = P::triple([P::lane(t288, 1), P::lane(t300, 1), P::lane(t307, 1)]);
+    let t343 = mul_sub(t323, t334, t325 * t333) * P::splat(P::lane(t338, 1));
+    let t344 = P::triple([P::lane(t288, 2), P::lane(t300, 2), P::lane(t307, 2)]);
+    let t345 = mul_add(t328, P::splat(P::lane(t338, 0)), t343);
+    let t346 = P::splat(t341) * mul_add(t339, P::splat(P::lane(t338, 2)), t345);
+    // inertia less external wrench that the actuators must balance
+    let t347 = -P::lane(t329, 0);
+    let t348 = -P::lane(t329, 1);
+    let t349 = -P::lane(t329, 2);
+    // force along the actuator that balances the remaining wrench
+    let t350 = -t346;
+    let t351 = mul_add(t340, P::splat(P::lane(t346, 0)), t319);
+    // constant and copied elements
+    let t352 = P::load(&prepared[21]);
+    let t353 = P::load(&prepared[22]);
+    // force along the actuator that balances the remaining wrench
+    let t354 = mul_add(t342, P::splat(P::lane(t346, 1)), t351);
+    // constant and copied elements
+    let t355 = P::load(&prepared[23]);
+    let t356 = P::load(&prepared[24]);
+    // force along the actuator that balances the remaining wrench
+    let t357 = mul_add(t344, P::splat(P::lane(t346, 2)), t354);
+    // constant and copied elements
+    let t358 = P::load(&prepared[25]);
+    let t359 = P::load(&prepared[26]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t360 = mul_add(t131, t177, mul_add(t117, t162, t106 * t151));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t361 = mul_add(t148, t196, mul_add(t137, t187, t130 * t179));
+    // force along the actuator that balances the remaining wrench
+    let t362 = P::splat(c(1.0) / t294) * t357;
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t363 = mul_add(t59 - t352, t358, t138 * t353);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t364 = mul_add(t64 - t355, t359, t158 * t356);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t365 = mul_add(t131, t178, mul_add(t117, t163, t106 * t152));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t366 = mul_add(t148, t197, mul_add(t137, t188, t130 * t180));
+    // force along the actuator that balances the remaining wrench
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t350, t362],
+        &[
+            [t137, t117],
+            [t130, t106],
+            [t148, t131],
+            [t310, t306],
+            [t291, t280],
+            [t292, t281],
+        ],
+        &[P::lane(t305, 0), P::lane(t305, 1), P::lane(t305, 2), t347, t348, t349],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t367 = mul_add(t131, t209, mul_add(t117, t207, t106 * t208));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t368 = mul_add(t148, t218, mul_add(t137, t216, t130 * t217));
+    // legs 1, 3, 5: actuator forces F
+    let t369 = mul_add(t211, t365, mul_sub(t215, t360, t363));
+    // legs 2, 4, 6: actuator forces F
+    let t370 = mul_add(t219, t366, mul_sub(t225, t361, t364));
+    // force along the actuator that balances the remaining wrench
+    let t371 = P::triple([axial_reaction[0], axial_reaction[2], axial_reaction[4]]);
+    // legs 1, 3, 5: actuator forces F
+    let t372 = t371 - neg_mul_add(t223, t367, t369);
+    // force along the actuator that balances the remaining wrench
+    let t373 = P::triple([axial_reaction[1], axial_reaction[3], axial_reaction[5]]);
+    // legs 2, 4, 6: actuator forces F
+    let t374 = t373 - neg_mul_add(t232, t368, t370);
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t372, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t374, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t372, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t374, 1);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t372, 2);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t374, 2);
+}
+
+/// What follows from the parameters alone, for \`control\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 34x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_control<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 34],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t2 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t3 = t2 + parameters.payload_inertia[2][2];
+    let t4 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t5 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t6 = mul_add(t4, parameters.upper_mass[4], t5 * parameters.upper_mass[5]);
+    let t7 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t8 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t9 = mul_add(t7, parameters.upper_mass[0], t8 * parameters.upper_mass[1]);
+    let t10 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t11 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t12 = mul_add(t10, parameters.upper_mass[2], t11 * parameters.upper_mass[3]);
+    let t13 = mul_add(t3, c(0.5), t6 + (t9 + t12));
+    let t14 = t13 - parameters.payload_inertia[0][0];
+    let t15 = mul_add(parameters.payload_mass, t1, t14);
+    prepared[25][0] = t15;
+    let t16 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t17 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t18 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t19 = mul_add(parameters.upper_mass[4], t17, parameters.upper_mass[5] * t18);
+    let t20 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t21 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t22 = mul_add(parameters.upper_mass[0], t20, parameters.upper_mass[1] * t21);
+    let t23 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t24 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t25 = mul_add(parameters.upper_mass[2], t23, parameters.upper_mass[3] * t24);
+    let t26 = mul_add(t3, c(0.5), t19 + (t22 + t25));
+    let t27 = t26 - parameters.payload_inertia[1][1];
+    let t28 = mul_add(parameters.payload_mass, t16, t27);
+    prepared[25][1] = t28;
+    let t29 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t30 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t31 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t32 = mul_add(parameters.upper_mass[4], t30, parameters.upper_mass[5] * t31);
+    let t33 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t34 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t35 = mul_add(parameters.upper_mass[0], t33, parameters.upper_mass[1] * t34);
+    let t36 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t37 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t38 = mul_add(parameters.upper_mass[2], t36, parameters.upper_mass[3] * t37);
+    let t39 = mul_add(t3, c(0.5), t32 + (t35 + t38));
+    let t40 = t39 - parameters.payload_inertia[2][2];
+    let t41 = mul_add(parameters.payload_mass, t29, t40);
+    prepared[25][2] = t41;
+    prepared[25][3] = t41;
+    let t42 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t43 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    let t44 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    let t45 = mul_add(t43, parameters.upper_mass[4], t44 * parameters.upper_mass[5]);
+    let t46 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    let t47 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    let t48 = mul_add(t46, parameters.upper_mass[0], t47 * parameters.upper_mass[1]);
+    let t49 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    let t50 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    let t51 = mul_add(t49, parameters.upper_mass[2], t50 * parameters.upper_mass[3]);
+    let t52 = mul_add(t42, parameters.payload_mass, t45 + (t48 + t51));
+    prepared[24][0] = t52 - parameters.payload_inertia[0][1];
+    let t53 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t54 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t55 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t56 = mul_add(parameters.upper_mass[4], t54, parameters.upper_mass[5] * t55);
+    let t57 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t58 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t59 = mul_add(parameters.upper_mass[0], t57, parameters.upper_mass[1] * t58);
+    let t60 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t61 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t62 = mul_add(parameters.upper_mass[2], t60, parameters.upper_mass[3] * t61);
+    let t63 = mul_add(t53, parameters.payload_mass, t56 + (t59 + t62));
+    prepared[24][1] = t63 - parameters.payload_inertia[1][2];
+    let t64 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t65 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t66 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t67 = mul_add(t65, parameters.upper_mass[4], t66 * parameters.upper_mass[5]);
+    let t68 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t69 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t70 = mul_add(t68, parameters.upper_mass[0], t69 * parameters.upper_mass[1]);
+    let t71 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t72 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t73 = mul_add(t71, parameters.upper_mass[2], t72 * parameters.upper_mass[3]);
+    let t74 = mul_add(t64, parameters.payload_mass, t67 + (t70 + t73));
+    let t75 = t74 - parameters.payload_inertia[0][2];
+    prepared[24][2] = t75;
+    prepared[24][3] = t75;
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t76 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[12][0] = t76;
+    let t77 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[12][1] = t77;
+    let t78 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[12][2] = t78;
+    prepared[12][3] = t78;
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t79 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[13][0] = t79;
+    let t80 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[13][1] = t80;
+    let t81 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[13][2] = t81;
+    prepared[13][3] = t81;
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t82 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[14][2] = t82;
+    prepared[14][3] = t82;
+    let t83 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[14][0] = t83;
+    let t84 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[14][1] = t84;
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t85 = mul_add(parameters.lower_com_distance[0], t76, parameters.lower_inertia[0]);
+    let t86 = t85 + parameters.upper_inertia[0];
+    prepared[16][0] = mul_add(parameters.upper_com_distance[0], t83, t86);
+    let t87 = mul_add(parameters.lower_com_distance[2], t77, parameters.lower_inertia[2]);
+    let t88 = t87 + parameters.upper_inertia[2];
+    prepared[16][1] = mul_add(parameters.upper_com_distance[2], t84, t88);
+    let t89 = mul_add(parameters.lower_com_distance[4], t78, parameters.lower_inertia[4]);
+    let t90 = t89 + parameters.upper_inertia[4];
+    let t91 = mul_add(parameters.upper_com_distance[4], t82, t90);
+    prepared[16][2] = t91;
+    prepared[16][3] = t91;
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t92 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[15][2] = t92;
+    prepared[15][3] = t92;
+    let t93 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[15][0] = t93;
+    let t94 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[15][1] = t94;
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t95 = mul_add(parameters.lower_com_distance[1], t79, parameters.lower_inertia[1]);
+    let t96 = t95 + parameters.upper_inertia[1];
+    prepared[17][0] = mul_add(parameters.upper_com_distance[1], t93, t96);
+    let t97 = mul_add(parameters.lower_com_distance[3], t80, parameters.lower_inertia[3]);
+    let t98 = t97 + parameters.upper_inertia[3];
+    prepared[17][1] = mul_add(parameters.upper_com_distance[3], t94, t98);
+    let t99 = mul_add(parameters.lower_com_distance[5], t81, parameters.lower_inertia[5]);
+    let t100 = t99 + parameters.upper_inertia[5];
+    let t101 = mul_add(parameters.upper_com_distance[5], t92, t100);
+    prepared[17][2] = t101;
+    prepared[17][3] = t101;
+    // first moment of payload and platform-side leg ends
+    let t102 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t103 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t102);
+    let t104 = parameters.platform_point[1][0] * parameters.upper_mass[1];
+    let t105 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t104);
+    let t106 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t107 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t106);
+    let t108 = t103 + (t105 + t107);
+    prepared[26][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t108);
+    let t109 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t110 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t109);
+    let t111 = parameters.platform_point[1][1] * parameters.upper_mass[1];
+    let t112 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t111);
+    let t113 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t114 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t113);
+    let t115 = t110 + (t112 + t114);
+    prepared[26][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t115);
+    let t116 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t117 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t116);
+    let t118 = parameters.platform_point[1][2] * parameters.upper_mass[1];
+    let t119 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t118);
+    let t120 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t121 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t120);
+    let t122 = t117 + (t119 + t121);
+    let t123 = mul_add(parameters.payload_com[2], parameters.payload_mass, t122);
+    prepared[26][2] = t123;
+    prepared[26][3] = t123;
+    // mass of payload and platform-side leg ends
+    let t124 = parameters.upper_mass[3] + parameters.upper_mass[2];
+    let t125 = parameters.upper_mass[1] + parameters.upper_mass[0] + t124;
+    let t126 = parameters.upper_mass[5] + parameters.upper_mass[4] + t125;
+    let t127 = parameters.payload_mass + t126;
+    prepared[27][1] = t127;
+    prepared[28][0] = t127;
+    prepared[29][2] = t127;
+    prepared[29][3] = t127;
+    prepared[33][0] = t127;
+    prepared[33][1] = t127;
+    prepared[33][2] = t127;
+    prepared[33][3] = t127;
+    // mass matrix M_p of the platform
+    let t128 = t41 + (t15 + t28);
+    prepared[30][0] = t128;
+    prepared[31][1] = t128;
+    prepared[32][2] = t128;
+    prepared[32][3] = t128;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[2][1];
+    prepared[0][2] = parameters.platform_point[4][1];
+    prepared[0][3] = parameters.platform_point[4][1];
+    prepared[1][0] = parameters.platform_point[1][1];
+    prepared[1][1] = parameters.platform_point[3][1];
+    prepared[1][2] = parameters.platform_point[5][1];
+    prepared[1][3] = parameters.platform_point[5][1];
+    prepared[2][0] = parameters.platform_point[0][0];
+    prepared[2][1] = parameters.platform_point[2][0];
+    prepared[2][2] = parameters.platform_point[4][0];
+    prepared[2][3] = parameters.platform_point[4][0];
+    prepared[3][0] = parameters.platform_point[1][0];
+    prepared[3][1] = parameters.platform_point[3][0];
+    prepared[3][2] = parameters.platform_point[5][0];
+    prepared[3][3] = parameters.platform_point[5][0];
+    prepared[4][0] = parameters.platform_point[0][2];
+    prepared[4][1] = parameters.platform_point[2][2];
+    prepared[4][2] = parameters.platform_point[4][2];
+    prepared[4][3] = parameters.platform_point[4][2];
+    prepared[5][0] = parameters.platform_point[1][2];
+    prepared[5][1] = parameters.platform_point[3][2];
+    prepared[5][2] = parameters.platform_point[5][2];
+    prepared[5][3] = parameters.platform_point[5][2];
+    prepared[6][0] = parameters.base_point[0][1];
+    prepared[6][1] = parameters.base_point[2][1];
+    prepared[6][2] = parameters.base_point[4][1];
+    prepared[6][3] = parameters.base_point[4][1];
+    prepared[7][0] = parameters.base_point[1][1];
+    prepared[7][1] = parameters.base_point[3][1];
+    prepared[7][2] = parameters.base_point[5][1];
+    prepared[7][3] = parameters.base_point[5][1];
+    prepared[8][0] = parameters.base_point[0][0];
+    prepared[8][1] = parameters.base_point[2][0];
+    prepared[8][2] = parameters.base_point[4][0];
+    prepared[8][3] = parameters.base_point[4][0];
+    prepared[9][0] = parameters.base_point[1][0];
+    prepared[9][1] = parameters.base_point[3][0];
+    prepared[9][2] = parameters.base_point[5][0];
+    prepared[9][3] = parameters.base_point[5][0];
+    prepared[10][0] = parameters.base_point[0][2];
+    prepared[10][1] = parameters.base_point[2][2];
+    prepared[10][2] = parameters.base_point[4][2];
+    prepared[10][3] = parameters.base_point[4][2];
+    prepared[11][0] = parameters.base_point[1][2];
+    prepared[11][1] = parameters.base_point[3][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[18][0] = parameters.rest_length[1];
+    prepared[18][1] = parameters.rest_length[3];
+    prepared[18][2] = parameters.rest_length[5];
+    prepared[18][3] = parameters.rest_length[5];
+    prepared[19][0] = parameters.axial_damping[1];
+    prepared[19][1] = parameters.axial_damping[3];
+    prepared[19][2] = parameters.axial_damping[5];
+    prepared[19][3] = parameters.axial_damping[5];
+    prepared[20][0] = parameters.rest_length[0];
+    prepared[20][1] = parameters.rest_length[2];
+    prepared[20][2] = parameters.rest_length[4];
+    prepared[20][3] = parameters.rest_length[4];
+    prepared[21][0] = parameters.axial_damping[0];
+    prepared[21][1] = parameters.axial_damping[2];
+    prepared[21][2] = parameters.axial_damping[4];
+    prepared[21][3] = parameters.axial_damping[4];
+    prepared[22][0] = parameters.axial_stiffness[1];
+    prepared[22][1] = parameters.axial_stiffness[3];
+    prepared[22][2] = parameters.axial_stiffness[5];
+    prepared[22][3] = parameters.axial_stiffness[5];
+    prepared[23][0] = parameters.axial_stiffness[0];
+    prepared[23][1] = parameters.axial_stiffness[2];
+    prepared[23][2] = parameters.axial_stiffness[4];
+    prepared[23][3] = parameters.axial_stiffness[4];
+    prepared[27][0] = c(0.0);
+    prepared[27][2] = c(0.0);
+    prepared[27][3] = c(0.0);
+    prepared[28][1] = c(0.0);
+    prepared[28][2] = c(0.0);
+    prepared[28][3] = c(0.0);
+    prepared[29][0] = c(0.0);
+    prepared[29][1] = c(0.0);
+    prepared[30][1] = c(0.0);
+    prepared[30][2] = c(0.0);
+    prepared[30][3] = c(0.0);
+    prepared[31][0] = c(0.0);
+    prepared[31][2] = c(0.0);
+    prepared[31][3] = c(0.0);
+    prepared[32][0] = c(0.0);
+    prepared[32][1] = c(0.0);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 34x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 34],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t24 = t12 * P::splat(P::lane(t14, 0));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t25 = t9 * P::splat(P::lane(t14, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t26 = t12 * P::splat(P::lane(t14, 1));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t27 = t9 * P::splat(P::lane(t14, 2));
+    let t28 = mul_add(t13, P::splat(P::lane(t15, 1)), t25);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = mul_add(t18, P::splat(P::lane(t15, 1)), t26);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t13, P::splat(P::lane(t15, 0)), t23);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t31 = mul_add(t18, P::splat(P::lane(t15, 0)), t24);
+    let t32 = t12 * P::splat(P::lane(t14, 2));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t33 = mul_add(t13, P::splat(P::lane(t15, 2)), t27);
+    let t34 = mul_add(t19, P::splat(P::lane(t17, 1)), t28);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t35 = mul_add(t20, P::splat(P::lane(t17, 1)), t29);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t36 = mul_add(t19, P::splat(P::lane(t17, 0)), t30);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t37 = mul_add(t20, P::splat(P::lane(t17, 0)), t31);
+    let t38 = mul_add(t18, P::splat(P::lane(t15, 2)), t32);
+    // constant and copied elements
+    let t39 = P::load(&prepared[7]);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t40 = mul_add(t19, P::splat(P::lane(t17, 2)), t33);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t41 = mul_add(t20, P::splat(P::lane(t17, 2)), t38);
+    // legs 1, 3, 5: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 1)) + t34 - t21;
+    // legs 2, 4, 6: platform joint from the base point
+    let t43 = P::splat(P::lane(t22, 1)) + t35 - t39;
+    // constant and copied elements
+    let t44 = P::load(&prepared[8]);
+    let t45 = P::load(&prepared[9]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t46 = t36 + P::splat(P::lane(t22, 0)) - t44;
+    // legs 2, 4, 6: platform joint from the base point
+    let t47 = t37 + P::splat(P::lane(t22, 0)) - t45;
+    // constant and copied elements
+    let t48 = P::load(&prepared[10]);
+    let t49 = P::load(&prepared[11]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t50 = t40 + P::splat(P::lane(t22, 2)) - t48;
+    // legs 2, 4, 6: platform joint from the base point
+    let t51 = t41 + P::splat(P::lane(t22, 2)) - t49;
+    // angular velocity of the base
+    let t52 = t1 * P::splat(base_velocity[4]);
+    // angular velocity of the platform
+    let t53 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t54 = mul_add(t2, P::splat(base_velocity[3]), t52);
+    // angular velocity of the platform
+    let t55 = mul_add(t2, P::splat(platform_velocity[3]), t53);
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // platform origin seen from the base
+    let t57 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    let t58 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // legs 1, 3, 5: actuator length d
+    let t59 = sqrt(mul_add(t50, t50, mul_add(t46, t46, t42 * t42)));
+    // legs 2, 4, 6: actuator length d
+    let t60 = sqrt(mul_add(t51, t51, mul_add(t47, t47, t43 * t43)));
+    // angular velocity of the base
+    let t61 = mul_add(t5, P::splat(base_velocity[5]), t54);
+    // velocity of the platform origin relative to the base
+    let t62 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // angular velocity of the platform
+    let t63 = mul_add(t5, P::splat(platform_velocity[5]), t55);
+    // angular acceleration of the base
+    let t64 = t1 * P::splat(base_acceleration[4]);
+    // rotation of the platform seen from the base
+    let t65 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t66 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // velocity of the platform origin relative to the base
+    let t68 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t62);
+    // angular velocity of the platform relative to the base
+    let t69 = t61 - t63;
+    // angular acceleration of the base
+    let t70 = mul_add(t2, P::splat(base_acceleration[3]), t64);
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t72 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t73 = P::triple([P::lane(t61, 0), P::lane(t61, 2), P::lane(t61, 0)]);
+    // angular velocity of the platform
+    let t74 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // velocity of the platform origin relative to the base
+    let t75 = mul_add(t58, t72, neg_mul_add(t57, t71, t68));
+    // angular acceleration of the base
+    let t76 = mul_add(t5, P::splat(base_acceleration[5]), t70);
+    // acceleration per platform coordinate of points of the platform
+    let t77 = mul_sub(t63, t65, t14 * t74);
+    let t78 = mul_sub(t63, t66, t15 * t74);
+    let t79 = mul_sub(t63, t67, t17 * t74);
+    // angular velocity of the base
+    let t80 = P::triple([P::lane(t61, 1), P::lane(t61, 1), P::lane(t61, 2)]);
+    // acceleration of the base origin less gravity
+    let t81 = base_acceleration[0] - parameters.gravity[0];
+    let t82 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // legs 1, 3, 5: reciprocal of the actuator length
+    let t83 = w(1.0) / t59;
+    // legs 2, 4, 6: reciprocal of the actuator length
+    let t84 = w(1.0) / t60;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t85 = neg_mul_add(t36, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t86 = neg_mul_add(t37, P::splat(P::lane(t69, 2)), P::splat(P::lane(t75, 1)));
+    // angular velocity of the base
+    let t87 = P::triple([P::lane(t61, 2), P::lane(t61, 2), P::lane(t61, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t88 = t73 * t80;
+    // acceleration of the platform origin less gravity
+    let t89 = t1 * P::splat(parameters.gravity[1]);
+    // angular velocity of the platform
+    let t90 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t91 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t92 = neg_mul_add(t40, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t93 = neg_mul_add(t41, P::splat(P::lane(t69, 1)), P::splat(P::lane(t75, 0)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t94 = mul_add(t40, P::splat(P::lane(t69, 0)), t85);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t95 = mul_add(t41, P::splat(P::lane(t69, 0)), t86);
+    // angular velocity of the base
+    let t96 = P::triple([P::lane(t61, 1), P::lane(t61, 0), P::lane(t61, 1)]);
+    // acceleration of the platform origin less gravity
+    let t97 = mul_add(t2, P::splat(parameters.gravity[0]), t89);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    let t99 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t100 = t42 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t101 = t43 * t84;
+    // acceleration of the base origin less gravity
+    let t102 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t103 = mul_add(t96, t96, t87 * t87);
+    // acceleration per platform coordinate of points of the platform
+    let t104 = mul_sub(t74, t77, t90 * t91);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t105 = mul_add(t34, P::splat(P::lane(t69, 2)), t92);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t106 = mul_add(t35, P::splat(P::lane(t69, 2)), t93);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t107 = neg_mul_add(t34, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t108 = neg_mul_add(t35, P::splat(P::lane(t69, 0)), P::splat(P::lane(t75, 2)));
+    // angular acceleration of the base
+    let t109 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t110 = t46 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t111 = t47 * t84;
+    // acceleration of the base origin less gravity
+    let t112 = mul_add(t5, P::splat(t102), mul_add(t2, P::splat(t81), t82));
+    // acceleration per base coordinate of points that move with the base
+    let t113 = mul_sub(t73, t80, t109);
+    // angular acceleration of the base
+    let t114 = P::triple([P::lane(t76, 1), P::lane(t76, 2), P::lane(t76, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t115 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    // acceleration of the platform origin less gravity
+    let t116 = mul_add(t5, P::splat(parameters.gravity[2]), t97);
+    // acceleration per platform coordinate of points of the platform
+    let t117 = mul_sub(t74, t78, t90 * t98);
+    let t118 = mul_sub(t74, t79, t90 * t99);
+    // acceleration per base coordinate of points that move with the base
+    let t119 = t114 + t115;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t120 = mul_add(t36, P::splat(P::lane(t69, 1)), t107);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t121 = mul_add(t37, P::splat(P::lane(t69, 1)), t108);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t122 = mul_add(t46, P::splat(P::lane(t61, 2)), t94);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t123 = mul_add(t47, P::splat(P::lane(t61, 2)), t95);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t124 = t50 * t83;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t125 = t51 * t84;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t126 = t9 * P::splat(P::lane(t104, 1));
+    let t127 = t21 * P::splat(P::lane(t103, 1));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t128 = t12 * P::splat(P::lane(t104, 1));
+    let t129 = t39 * P::splat(P::lane(t103, 1));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t130 = mul_add(t50, P::splat(P::lane(t61, 1)), t105);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t131 = mul_add(t51, P::splat(P::lane(t61, 1)), t106);
+    // legs 1, 3, 5: actuator velocity d'
+    let t132 = mul_add(t120, t124, mul_add(t105, t110, t94 * t100));
+    // legs 2, 4, 6: actuator velocity d'
+    let t133 = mul_add(t121, t125, mul_add(t106, t111, t95 * t101));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t134 = neg_mul_add(t50, P::splat(P::lane(t61, 0)), t122);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t135 = neg_mul_add(t51, P::splat(P::lane(t61, 0)), t123);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t136 = t9 * P::splat(P::lane(t104, 0));
+    let t137 = t21 * P::splat(P::lane(t113, 0));
+    let t138 = neg_mul_add(t19, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t139 = mul_add(t48, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t140 = t12 * P::splat(P::lane(t104, 0));
+    let t141 = t39 * P::splat(P::lane(t113, 0));
+    let t142 = neg_mul_add(t20, P::splat(P::lane(t118, 1)), P::splat(P::lane(t116, 1)));
+    let t143 = mul_add(t49, P::splat(P::lane(t113, 1)), P::splat(P::lane(t112, 1)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t144 = neg_mul_add(t42, P::splat(P::lane(t61, 2)), t130);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t145 = neg_mul_add(t43, P::splat(P::lane(t61, 2)), t131);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t146 = mul_add(t42, P::splat(P::lane(t61, 0)), t120);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t147 = mul_add(t43, P::splat(P::lane(t61, 0)), t121);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t148 = neg_mul_add(t19, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t149 = mul_add(t48, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t150 = neg_mul_add(t20, P::splat(P::lane(t118, 0)), P::splat(P::lane(t116, 0)));
+    let t151 = mul_add(t49, P::splat(P::lane(t119, 0)), P::splat(P::lane(t112, 0)));
+    // legs 1, 3, 5: actuator acceleration d''
+    let t152 = t138 - mul_add(t13, P::splat(P::lane(t117, 1)), t126);
+    let t153 = mul_sub(t44, P::splat(P::lane(t119, 1)), t127) + t139;
+    let t154 = t9 * P::splat(P::lane(t104, 2));
+    let t155 = t21 * P::splat(P::lane(t119, 2));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t156 = t142 - mul_add(t18, P::splat(P::lane(t117, 1)), t128);
+    let t157 = mul_sub(t45, P::splat(P::lane(t119, 1)), t129) + t143;
+    let t158 = t12 * P::splat(P::lane(t104, 2));
+    let t159 = t39 * P::splat(P::lane(t119, 2));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t160 = neg_mul_add(t46, P::splat(P::lane(t61, 1)), t146);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t161 = neg_mul_add(t47, P::splat(P::lane(t61, 1)), t147);
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t162 = t83 * neg_mul_add(t100, t132, t134);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t163 = t84 * neg_mul_add(t101, t133, t135);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t164 = t148 - mul_add(t13, P::splat(P::lane(t117, 0)), t136);
+    let t165 = t149 - mul_sub(t44, P::splat(P::lane(t103, 0)), t137);
+    let t166 = t152 + t153;
+    let t167 = neg_mul_add(t19, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t168 = neg_mul_add(t48, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t169 = t150 - mul_add(t18, P::splat(P::lane(t117, 0)), t140);
+    let t170 = t151 - mul_sub(t45, P::splat(P::lane(t103, 0)), t141);
+    let t171 = t156 + t157;
+    let t172 = neg_mul_add(t20, P::splat(P::lane(t118, 2)), P::splat(P::lane(t116, 2)));
+    let t173 = neg_mul_add(t49, P::splat(P::lane(t103, 2)), P::splat(P::lane(t112, 2)));
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t174 = t83 * neg_mul_add(t110, t132, t144);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t175 = t84 * neg_mul_add(t111, t133, t145);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t176 = t164 + t165;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t177 = t169 + t170;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t178 = t167 - mul_add(t13, P::splat(P::lane(t117, 2)), t154);
+    let t179 = mul_add(t44, P::splat(P::lane(t113, 2)), t155) + t168;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t180 = t172 - mul_add(t18, P::splat(P::lane(t117, 2)), t158);
+    let t181 = mul_add(t45, P::splat(P::lane(t113, 2)), t159) + t173;
+    // legs 1, 3, 5: inertial rate of that gradient
+    let t182 = t83 * neg_mul_add(t124, t132, t160);
+    // legs 2, 4, 6: inertial rate of that gradient
+    let t183 = t84 * neg_mul_add(t125, t133, t161);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t184 = t178 + t179;
+    // legs 2, 4, 6: actuator acceleration d''
+    let t185 = t180 + t181;
+    // legs 1, 3, 5: actuator acceleration d''
+    let t186 = mul_add(t124, t184, mul_add(t110, t176, t100 * t166));
+    let t187 = mul_add(t182, t182, mul_add(t174, t174, t162 * t162));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t188 = mul_add(t125, t185, mul_add(t111, t177, t101 * t171));
+    let t189 = mul_add(t183, t183, mul_add(t175, t175, t163 * t163));
+    // legs 1, 3, 5: first moment of the lower part about the base joint
+    let t190 = P::load(&prepared[12]);
+    // legs 2, 4, 6: first moment of the lower part about the base joint
+    let t191 = P::load(&prepared[13]);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t192 = neg_mul_add(t59, t187, t186);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t193 = neg_mul_add(t60, t189, t188);
+    // legs 1, 3, 5: first moment of the upper part about the platform joint
+    let t194 = P::load(&prepared[14]);
+    // legs 2, 4, 6: first moment of the upper part about the platform joint
+    let t195 = P::load(&prepared[15]);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t196 = t132 * w(2.0);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t197 = t133 * w(2.0);
+    // legs 1, 3, 5: inertia of both parts, each about its joint, that turns with the direction
+    let t198 = P::load(&prepared[16]);
+    // legs 2, 4, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t199 = P::load(&prepared[17]);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t200 = P::splat(base_rotation[0][1]) * t100;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t201 = P::splat(base_rotation[0][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t202 = P::splat(base_rotation[2][1]) * t100;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t203 = t83 * t83;
+    let t204 = t83 * t194;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t205 = t84 * t84;
+    let t206 = t84 * t195;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t207 = P::splat(base_rotation[1][1]) * t100;
+    let t208 = mul_add(P::splat(base_rotation[0][0]), t110, t200);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t209 = mul_add(P::splat(base_rotation[0][0]), t111, t201);
+    let t210 = P::splat(base_rotation[1][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t211 = mul_add(P::splat(base_rotation[2][0]), t110, t202);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t212 = P::splat(base_rotation[2][1]) * t101;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t213 = mul_add(P::splat(base_rotation[1][0]), t110, t207);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t214 = t198 * t203;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t215 = t199 * t205;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t216 = t83 * mul_add(t174, t196, neg_mul_add(t110, t192, t176));
+    let t217 = t83 * mul_add(t162, t196, neg_mul_add(t100, t192, t166));
+    let t218 = t83 * mul_add(t182, t196, neg_mul_add(t124, t192, t184));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t219 = t84 * mul_add(t175, t197, neg_mul_add(t111, t193, t177));
+    let t220 = t84 * mul_add(t163, t197, neg_mul_add(t101, t193, t171));
+    let t221 = t84 * mul_add(t183, t197, neg_mul_add(t125, t193, t185));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t222 = P::splat(platform_rotation[2][1]) * t9;
+    // legs 2, 4, 6: gradient of the actuator length
+    let t223 = mul_add(P::splat(base_rotation[1][0]), t111, t210);
+    let t224 = mul_add(P::splat(base_rotation[2][0]), t111, t212);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t225 = P::splat(platform_rotation[0][1]) * t9;
+    let t226 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t227 = mul_add(P::splat(base_rotation[0][2]), t124, t208);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t228 = mul_add(P::splat(base_rotation[0][2]), t125, t209);
+    // legs 1, 3, 5: gradient of the actuator length
+    let t229 = mul_add(P::splat(base_rotation[2][2]), t124, t211);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t230 = neg_mul_add(w(2.0), mul_sub(t198, t203, t204), t214);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t231 = neg_mul_add(w(2.0), mul_sub(t199, t205, t206), t215);
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t232 = t83 * t190;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t233 = t84 * t191;
+    // legs 1, 3, 5: gradient of the actuator length
+    let t234 = mul_add(P::splat(base_rotation[1][2]), t124, t213);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t235 = mul_add(P::splat(platform_rotation[2][0]), t13, t222);
+    let t236 = mul_add(P::splat(platform_rotation[0][0]), t13, t225);
+    let t237 = mul_add(P::splat(platform_rotation[1][0]), t13, t226);
+    // legs 2, 4, 6: gradient of the actuator length
+    let t238 = mul_add(P::splat(base_rotation[1][2]), t125, t223);
+    let t239 = mul_add(P::splat(base_rotation[2][2]), t125, t224);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t240 = neg_mul_add(w(2.0), t204, t214);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t241 = neg_mul_add(w(2.0), t206, t215);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t242 = t227 * t230;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t243 = t228 * t231;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t244 = t230 * t234;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t245 = P::splat(platform_rotation[0][1]) * t12;
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t246 = mul_add(P::splat(platform_rotation[2][2]), t19, t235);
+    let t247 = mul_add(P::splat(platform_rotation[0][2]), t19, t236);
+    let t248 = mul_add(P::splat(platform_rotation[1][2]), t19, t237);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t249 = P::splat(platform_rotation[1][1]) * t12;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t250 = mul_add(t227, t242, t240);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t251 = mul_add(t228, t243, t241);
+    let t252 = t238 * t243;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t253 = t229 * t242;
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t254 = t239 * t243;
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t255 = mul_add(t229, t229 * t230, t240);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t256 = mul_add(t164, t204, mul_add(t165, t232, t194 * t216));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t257 = mul_add(t169, t206, mul_add(t170, t233, t195 * t219));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t258 = mul_add(t152, t204, mul_add(t153, t232, t194 * t217));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t259 = mul_add(t156, t206, mul_add(t157, t233, t195 * t220));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t260 = mul_add(t178, t204, mul_add(t179, t232, t194 * t218));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t261 = mul_add(t180, t206, mul_add(t181, t233, t195 * t221));
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t262 = t229 * t244;
+    // legs 1, 3, 5: leg inertia between joint and base speeds
+    let t263 = t83 * t198;
+    // legs 2, 4, 6: leg inertia between joint and base speeds
+    let t264 = t84 * t199;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t265 = mul_add(P::splat(platform_rotation[0][0]), t18, t245);
+    let t266 = P::splat(platform_rotation[2][1]) * t12;
+    // constant and copied elements
+    let t267 = P::load(&prepared[18]);
+    let t268 = P::load(&prepared[19]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t269 = mul_add(P::splat(platform_rotation[1][0]), t18, t249);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t270 = mul_add(t234, t244, t240);
+    // mass matrix of the legs
+    let t271 = mul_add(t234, t242, t252);
+    let t272 = mul_add(t229, t242, t254);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t273 = t231 * t238;
+    // mass matrix of the legs
+    let t274 = t250 + t251;
+    let t275 = t247 * t262;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t276 = neg_mul_add(t216, t263, t256);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t277 = neg_mul_add(t219, t264, t257);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t278 = neg_mul_add(t217, t263, t258);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t279 = neg_mul_add(t220, t264, t259);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t280 = neg_mul_add(t218, t263, t260);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t281 = neg_mul_add(t221, t264, t261);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t282 = mul_add(P::splat(platform_rotation[2][0]), t18, t266);
+    // constant and copied elements
+    let t283 = P::load(&prepared[20]);
+    let t284 = P::load(&prepared[21]);
+    let t285 = P::load(&prepared[22]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t286 = mul_add(P::splat(platform_rotation[0][2]), t20, t265);
+    // legs 1, 3, 5: mass matrix of the leg in the speeds of its joint
+    let t287 = t234 * t242;
+    // mass matrix of the legs
+    let t288 = mul_sub(t247, t255, t246 * t253);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t289 = mul_add(t125, t180, mul_add(t111, t169, t101 * t156));
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t290 = mul_add(t60 - t267, t285, t133 * t268);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t291 = mul_add(P::splat(platform_rotation[1][2]), t20, t269);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t292 = mul_add(t238, t273, t241);
+    let t293 = t239 * t273;
+    // mass matrix of the legs
+    let t294 = mul_sub(t248, t253, t275);
+    let t295 = mul_sub(t246, t262, t248 * t255);
+    // constant and copied elements
+    let t296 = P::load(&prepared[23]);
+    // inertia force less weight, without the actuators' own shares
+    let t297 = t276 + t277;
+    let t298 = t278 + t279;
+    let t299 = t280 + t281;
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t300 = mul_add(P::splat(platform_rotation[2][2]), t20, t282);
+    // legs 2, 4, 6: mass matrix of the leg in the speeds of its joint
+    let t301 = mul_add(t239, t231 * t239, t241);
+    // mass matrix of the legs
+    let t302 = mul_sub(t246, t287, t275);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t303 = mul_add(t124, t178, mul_add(t110, t164, t100 * t152));
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t304 = mul_add(t59 - t283, t296, t132 * t284);
+    // mass matrix of the legs
+    let t305 = t286 * t293;
+    let t306 = mul_sub(t246, t270, t248 * t262);
+    let t307 = mul_sub(t248, t287, t247 * t270);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t308 = mul_add(t125, t181, mul_add(t111, t170, t101 * t157));
+    // mass matrix of the legs
+    let t309 = mul_add(t229, t244, t293);
+    let t310 = P::triple([P::lane(t274, 0), P::lane(t271, 0), P::lane(t272, 0)]);
+    let t311 = P::triple([P::lane(t274, 1), P::lane(t271, 1), P::lane(t272, 1)]);
+    // legs 1, 3, 5: moment about the platform origin of the leg's inertia at its joint
+    let t312 = mul_sub(t34, t280, t40 * t278);
+    let t313 = mul_sub(t40, t276, t36 * t280);
+    let t314 = mul_sub(t36, t278, t34 * t276);
+    // mass matrix of the legs
+    let t315 = t270 + t292;
+    let t316 = mul_sub(t252, t300, t305);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t317 = mul_add(t124, t179, mul_add(t110, t165, t100 * t153));
+    // mass matrix of the legs
+    let t318 = mul_sub(t292, t300, t291 * t293);
+    let t319 = mul_sub(t252, t291, t286 * t292);
+    let t320 = P::triple([P::lane(t274, 2), P::lane(t271, 2), P::lane(t272, 2)]);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t321 = mul_add(t125, t221, mul_add(t111, t219, t101 * t220));
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t322 = mul_add(t233, t308, mul_sub(t206, t289, t290));
+    // mass matrix of the legs
+    let t323 = mul_sub(t247, t253, t246 * t250);
+    let t324 = mul_sub(t248, t250, t247 * t287);
+    let t325 = t310 + t311 + t320;
+    // inertia force less weight, without the actuators' own shares
+    let t326 = P::triple([P::lane(t297, 0), P::lane(t298, 0), P::lane(t299, 0)]);
+    let t327 = P::triple([P::lane(t297, 1), P::lane(t298, 1), P::lane(t299, 1)]);
+    // mass matrix of the legs
+    let t328 = mul_sub(t293, t300, t291 * t301);
+    let t329 = mul_sub(t286, t301, t254 * t300);
+    let t330 = mul_sub(t254, t291, t305);
+    let t331 = mul_add(t300, t316, mul_add(t246, t302, t248 * t288));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t332 = mul_add(t124, t218, mul_add(t110, t216, t100 * t217));
+    // first moments by platform coordinate of the payload's inertia force
+    let t333 = mul_add(t117, P::splat(prepared[25][0]), t104 * P::splat(prepared[24][0]));
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t334 = mul_add(t232, t317, mul_sub(t204, t303, t304));
+    // mass matrix of the legs
+    let t335 = mul_add(t252, t300, mul_sub(t246, t287, t248 * t253));
+    let t336 = mul_add(t300, t318, mul_sub(t246, t306, t248 * t295));
+    let t337 = mul_add(t300, t319, mul_sub(t246, t307, t248 * t294));
+    let t338 = mul_sub(t254, t286, t251 * t300);
+    let t339 = mul_sub(t251, t291, t252 * t286);
+    // inertia force less weight, without the actuators' own shares
+    let t340 = P::triple([P::lane(t297, 2), P::lane(t298, 2), P::lane(t299, 2)]);
+    // legs 2, 4, 6: force along the actuator that reaches the platform
+    let t341 = neg_mul_add(t264, t321, t322);
+    // mass matrix of the legs
+    let t342 = P::lane(t309, 1) + P::lane(t309, 0);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t343 = neg_mul_add(t41, t279, mul_add(t35, t281, t312));
+    let t344 = neg_mul_add(t37, t281, mul_add(t41, t277, t313));
+    let t345 = neg_mul_add(t35, t277, mul_add(t37, t279, t314));
+    // mass matrix of the legs
+    let t346 = t302 + t316;
+    let t347 = t255 + t301;
+    // mass matrix M_p of the platform
+    let t348 = t306 + t318;
+    let t349 = t307 + t319;
+    let t350 = t295 + t328;
+    let t351 = t288 + t329;
+    // mass matrix of the legs
+    let t352 = t294 + t330;
+    let t353 = mul_add(t291, t329, t331);
+    // first moments by platform coordinate of the payload's inertia force
+    let t354 = mul_add(t118, P::splat(prepared[24][2]), t333);
+    // legs 1, 3, 5: force along the actuator that reaches the platform
+    let t355 = neg_mul_add(t263, t332, t334);
+    // mass matrix of the legs
+    let t356 = neg_mul_add(t254, t291, t335);
+    let t357 = neg_mul_add(t291, t328, t336);
+    let t358 = neg_mul_add(t291, t330, t337);
+    let t359 = P::triple([P::lane(t325, 1), P::lane(t315, 2), P::lane(t309, 2)]);
+    let t360 = P::triple([c(0.0), P::lane(t315, 1) + P::lane(t315, 0), t342]);
+    // mass matrix M_p of the platform
+    let t361 = t323 + t338;
+    let t362 = t324 + t339;
+    // inertia force less weight, without the actuators' own shares
+    let t363 = neg_mul_add(t116, P::splat(prepared[33][0]), t326 + t327 + t340);
+    // mass matrix of the legs
+    let t364 = t359 + t360;
+    // first moments by platform coordinate of the payload's inertia force
+    let t365 = mul_sub(t116, P::splat(prepared[26][0]), t354);
+    let t366 = mul_add(t117, P::splat(prepared[24][0]), t104 * P::splat(prepared[25][1]));
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t367 = mul_add(t227, t355, t228 * t341);
+    let t368 = mul_add(t234, t355, t238 * t341);
+    let t369 = mul_add(t229, t355, t239 * t341);
+    // mass matrix M_p of the platform
+    let t370 = platform_rotation[2][1] * prepared[26][1];
+    // mass matrix of the legs
+    let t371 = mul_add(t286, t329, mul_sub(t247, t288, t246 * t323));
+    let t372 = mul_add(t286, t330, mul_sub(t247, t294, t246 * t324));
+    // mass matrix M_p of the platform
+    let t373 = P::load(&prepared[27]);
+    // inertia force less weight, without the actuators' own shares
+    let t374 = mul_add(t117, P::splat(prepared[26][0]), t363);
+    // mass matrix M_p of the platform
+    let t375 = platform_rotation[1][1] * prepared[26][1];
+    // legs 5, 1, 3: gradient of the actuator length
+    let t376 = P::triple([P::lane(t229, 2), P::lane(t229, 0), P::lane(t229, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t377 = P::triple([P::lane(t227, 1), P::lane(t227, 2), P::lane(t227, 0)]);
+    // mass matrix M_p of the platform
+    let t378 = P::triple([P::lane(t348, 0), P::lane(t346, 0), P::lane(t349, 0)]);
+    let t379 = P::triple([P::lane(t348, 1), P::lane(t346, 1), P::lane(t349, 1)]);
+    // mass matrix of the legs
+    let t380 = t364 + t373;
+    // moment of the legs' inertia at their joints about the platform origin
+    let t381 = P::triple([P::lane(t343, 0), P::lane(t344, 0), P::lane(t345, 0)]);
+    let t382 = P::triple([P::lane(t343, 1), P::lane(t344, 1), P::lane(t345, 1)]);
+    // legs 3, 5, 1: gradient of the actuator length
+    let t383 = P::triple([P::lane(t229, 1), P::lane(t229, 2), P::lane(t229, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t384 = P::triple([P::lane(t234, 2), P::lane(t234, 0), P::lane(t234, 1)]);
+    // mass matrix M_p of the platform
+    let t385 = P::triple([-P::lane(t350, 0), -P::lane(t351, 0), P::lane(t352, 0)]);
+    let t386 = P::triple([-P::lane(t350, 1), -P::lane(t351, 1), P::lane(t352, 1)]);
+    let t387 = P::mul_add(platform_rotation[2][0], prepared[26][0], t370);
+    let t388 = -P::lane(t361, 0);
+    let t389 = -P::lane(t362, 0);
+    let t390 = -P::lane(t361, 1);
+    let t391 = -P::lane(t362, 1);
+    // mass of payload and platform-side leg ends
+    let t392 = P::load(&prepared[28]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t393 = mul_add(t118, P::splat(prepared[24][1]), t366);
+    // mass matrix M_p of the platform
+    let t394 = P::mul_add(platform_rotation[1][0], prepared[26][0], t375);
+    // legs 5, 1, 3: gradient of the actuator length
+    let t395 = P::triple([P::lane(t227, 2), P::lane(t227, 0), P::lane(t227, 1)]);
+    // mass matrix of the legs
+    let t396 = neg_mul_add(t300, t338, t371);
+    let t397 = neg_mul_add(t300, t339, t372);
+    let t398 = P::triple([P::lane(t325, 2), P::lane(t364, 2), P::lane(t347, 2)]);
+    let t399 = P::triple([c(0.0), c(0.0), P::lane(t347, 1) + P::lane(t347, 0)]);
+    let t400 = P::triple([P::lane(t357, 0), -P::lane(t353, 0), P::lane(t358, 0)]);
+    let t401 = P::triple([P::lane(t357, 1), -P::lane(t353, 1), P::lane(t358, 1)]);
+    let t402 = P::triple([P::lane(t356, 1), t390, t391]);
+    // mass matrix M_p of the platform
+    let t403 = P::triple([P::lane(t348, 2), P::lane(t346, 2), P::lane(t349, 2)]);
+    let t404 = t325 + t392;
+    // inertia force less weight, without the actuators' own shares
+    let t405 = mul_add(t104, P::splat(prepared[26][1]), t374);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t406 = P::triple([P::lane(t343, 2), P::lane(t344, 2), P::lane(t345, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t407 = t380 * P::splat(platform_acceleration[1]);
+    // mass matrix M_p of the platform
+    let t408 = platform_rotation[0][1] * prepared[26][1];
+    // legs 3, 5, 1: gradient of the actuator length
+    let t409 = P::triple([P::lane(t234, 1), P::lane(t234, 2), P::lane(t234, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t410 = mul_sub(t383, t395, t376 * t377);
+    // mass matrix of the legs
+    let t411 = P::triple([P::lane(t356, 0), t388, t389]) + t402;
+    // mass matrix M_p of the platform
+    let t412 = t378 + t379 + t403;
+    let t413 = P::triple([-P::lane(t350, 2), -P::lane(t351, 2), P::lane(t352, 2)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t414 = t381 + t382 + t406;
+    // force along the actuator that balances the remaining wrench
+    let t415 = mul_sub(t376, t409, t383 * t384);
+    // mass matrix M_p of the platform
+    let t416 = -P::lane(t361, 2);
+    let t417 = -P::lane(t362, 2);
+    let t418 = t385 + t386 + t413;
+    let t419 = P::mul_add(platform_rotation[2][2], prepared[26][2], t387);
+    // constant and copied elements
+    let t420 =
+        P::triple([platform_rotation[1][1], platform_rotation[2][1], platform_rotation[0][1]]);
+    // mass matrix of the legs
+    let t421 = P::triple([P::lane(t357, 2), -P::lane(t353, 2), P::lane(t358, 2)]);
+    let t422 = P::load(&prepared[29]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t423 = mul_sub(t116, P::splat(prepared[26][1]), t393);
+    let t424 = mul_add(t117, P::splat(prepared[24][2]), t104 * P::splat(prepared[24][1]));
+    let t425 = P::triple([P::lane(t365, 2), P::lane(t365, 0), P::lane(t365, 1)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t426 = P::triple([P::lane(t367, 0), P::lane(t368, 0), P::lane(t369, 0)]);
+    let t427 = P::triple([P::lane(t367, 1), P::lane(t368, 1), P::lane(t369, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t428 = mul_add(t404, P::splat(platform_acceleration[0]), t407);
+    // mass matrix M_p of the platform
+    let t429 = P::mul_add(platform_rotation[1][2], prepared[26][2], t394);
+    let t430 = P::mul_add(platform_rotation[0][0], prepared[26][0], t408);
+    // inertia less external wrench that the actuators must balance
+    let t431 = P::splat(parameters.payload_com[1]) * t420;
+    // mass matrix of the legs
+    let t432 = mul_add(t291, t339, mul_sub(t248, t324, t247 * t307));
+    let t433 = t400 + t401 + t421;
+    let t434 = t411 + P::triple([P::lane(t356, 2), t416, t417]);
+    let t435 = t398 + t399 + t422;
+    // inertia force less weight, without the actuators' own shares
+    let t436 = mul_add(t118, P::splat(prepared[26][2]), t405);
+    // constant and copied elements
+    let t437 =
+        P::triple([platform_rotation[1][0], platform_rotation[2][0], platform_rotation[0][0]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t438 = P::triple([P::lane(t367, 2), P::lane(t368, 2), P::lane(t369, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t439 = mul_add(P::splat(parameters.payload_com[0]), t437, t431);
+    // force along the actuator that balances the remaining wrench
+    let t440 = t238 * P::splat(P::lane(t410, 0));
+    // mass matrix M_p of the platform
+    let t441 = platform_rotation[0][1] * prepared[24][0];
+    // first moments by platform coordinate of the payload's inertia force
+    let t442 = mul_add(t118, P::splat(prepared[25][2]), t424);
+    // rotation of the platform seen from the base
+    let t443 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t444 = P::triple([P::lane(t365, 1), P::lane(t365, 2), P::lane(t365, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t445 = mul_add(t435, P::splat(platform_acceleration[2]), t428);
+    // mass matrix M_p of the platform
+    let t446 = t429 + P::lane(t418, 0);
+    mass_matrix_p[2][3] = t446;
+    mass_matrix_p[3][2] = t446;
+    let t447 = P::mul_add(platform_rotation[0][2], prepared[26][2], t430);
+    // force along the actuator that balances the remaining wrench
+    let t448 = mul_sub(t377, t384, t395 * t409);
+    // legs 2, 4, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t449 = mul_sub(t239, t291, t238 * t300);
+    let t450 = mul_sub(t228, t300, t239 * t286);
+    let t451 = mul_sub(t238, t286, t228 * t291);
+    // mass matrix of the legs
+    let t452 = neg_mul_add(t286, t319, t432);
+    let t453 = P::lane(t397, 1) + P::lane(t397, 0);
+    // moment of the inertia force about the platform origin
+    let t454 = mul_add(t443, t444, neg_mul_add(t66, t425, t414));
+    // constant and copied elements
+    let t455 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // mass matrix of the legs
+    let t456 = -P::lane(t434, 0);
+    mass_matrix_p[0][3] = t456;
+    mass_matrix_p[3][0] = t456;
+    // mass matrix M_p of the platform
+    let t457 = -(t419 + P::lane(t412, 0));
+    mass_matrix_p[1][3] = t457;
+    mass_matrix_p[3][1] = t457;
+    // constant and copied elements
+    let t458 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t459 = mul_add(t228, P::splat(P::lane(t415, 0)), t440);
+    let t460 = P::lane(t227, 1) * P::lane(t415, 1);
+    // mass matrix M_p of the platform
+    let t461 = P::mul_add(platform_rotation[0][0], prepared[25][0], t441);
+    // constant and copied elements
+    let t462 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t463 = neg_mul_add(P::splat(P::lane(t436, 0)), t455, t426 + t427 + t438);
+    // mass matrix of the legs
+    let t464 = P::triple([t456, t457, t446]);
+    // inertia less external wrench that the actuators must balance
+    let t465 = mul_add(P::splat(parameters.payload_com[2]), t458, t439);
+    // legs 1, 3, 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t466 = mul_sub(t229, t248, t234 * t246);
+    let t467 = mul_sub(t227, t246, t229 * t247);
+    let t468 = mul_sub(t234, t247, t227 * t248);
+    // mass matrix of the legs
+    let t469 = P::triple([P::lane(t433, 1), P::lane(t396, 2), P::lane(t397, 2)]);
+    let t470 = P::triple([c(0.0), P::lane(t396, 1) + P::lane(t396, 0), t453]);
+    // mass matrix M_p of the platform
+    let t471 = platform_rotation[0][1] * prepared[25][1];
+    // first moments by platform coordinate of the payload's inertia force
+    let t472 = mul_sub(t116, P::splat(prepared[26][2]), t442);
+    let t473 = P::triple([P::lane(t423, 2), P::lane(t423, 0), P::lane(t423, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t474 = mul_add(t464, P::splat(platform_acceleration[3]), t445);
+    // mass matrix M_p of the platform
+    let t475 = t419 + P::lane(t434, 1);
+    mass_matrix_p[0][4] = t475;
+    mass_matrix_p[4][0] = t475;
+    let t476 = P::lane(t418, 1) - t447;
+    mass_matrix_p[2][4] = t476;
+    mass_matrix_p[4][2] = t476;
+    let t477 = P::lane(t434, 2) - t429;
+    mass_matrix_p[0][5] = t477;
+    mass_matrix_p[5][0] = t477;
+    let t478 = t447 - P::lane(t412, 2);
+    mass_matrix_p[1][5] = t478;
+    mass_matrix_p[5][1] = t478;
+    // mass matrix of the legs
+    let t479 = t469 + t470;
+    // force along the actuator that balances the remaining wrench
+    let t480 = P::mul_add(P::lane(t227, 0), P::lane(t415, 0), t460);
+    // constant and copied elements
+    let t481 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
+    let t482 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    // mass matrix of the legs
+    let t483 = -P::lane(t418, 2);
+    mass_matrix_p[2][5] = t483;
+    mass_matrix_p[5][2] = t483;
+    // force along the actuator that balances the remaining wrench
+    let t484 = mul_add(t239, P::splat(P::lane(t448, 0)), t459);
+    let t485 = t238 * P::splat(P::lane(t410, 1));
+    // mass matrix M_p of the platform
+    let t486 = P::mul_add(platform_rotation[0][2], prepared[24][2], t461);
+    // constant and copied elements
+    let t487 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t488 = P::mul_add(platform_rotation[0][0], prepared[24][0], t471);
+    let t489 = mul_add(P::splat(prepared[25][0]), t481, P::splat(prepared[24][0]) * t462);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t490 = mul_sub(P::splat(P::lane(t436, 1)), t482, t463);
+    // mass matrix M_p of the platform
+    let t491 = P::triple([t475, P::lane(t412, 1), t476]);
+    let t492 = P::triple([t477, t478, t483]);
+    // constant and copied elements
+    let t493 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t494 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t495 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // mass matrix M_p of the platform
+    let t496 = t433 + P::load(&prepared[30]);
+    let t497 = platform_rotation[0][1] * prepared[24][1];
+    // rotation of the platform seen from the base
+    let t498 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t499 = P::triple([P::lane(t423, 1), P::lane(t423, 2), P::lane(t423, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t500 = mul_add(t355, t466, t341 * t449);
+    let t501 = mul_add(t355, t467, t341 * t450);
+    let t502 = mul_add(t355, t468, t341 * t451);
+    // inertia less external wrench that the actuators must balance
+    let t503 = mul_sub(t492, P::splat(platform_acceleration[5]), t493);
+    // moment of the inertia force about the platform origin
+    let t504 = neg_mul_add(t498, t499, mul_sub(t65, t473, t454));
+    // force along the actuator that balances the remaining wrench
+    let t505 = mul_add(t228, P::splat(P::lane(t415, 1)), t485);
+    let t506 = P::mul_add(P::lane(t227, 2), P::lane(t415, 2), t480);
+    // constant and copied elements
+    let t507 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    let t508 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    let t509 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t510 = t238 * P::splat(P::lane(t410, 2));
+    // mass matrix M_p of the platform
+    let t511 = neg_mul_add(P::splat(t486), t507, t496);
+    let t512 = P::mul_add(platform_rotation[0][2], prepared[24][1], t488);
+    let t513 = P::mul_add(platform_rotation[0][0], prepared[24][2], t497);
+    let t514 = P::load(&prepared[31]);
+    let t515 = mul_add(P::splat(prepared[24][0]), t481, P::splat(prepared[25][1]) * t462);
+    let t516 = mul_add(P::splat(prepared[25][0]), t507, P::splat(prepared[24][0]) * t487);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t517 = mul_add(P::splat(P::lane(t436, 2)), t509, t490);
+    // constant and copied elements
+    let t518 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    // inertia less external wrench that the actuators must balance
+    let t519 = P::triple([P::lane(t465, 1), P::lane(t465, 2), P::lane(t465, 0)]);
+    // mass matrix of the legs
+    let t520 = P::triple([P::lane(t433, 2), P::lane(t479, 2), P::lane(t452, 2)]);
+    let t521 = P::triple([c(0.0), c(0.0), P::lane(t452, 1) + P::lane(t452, 0)]);
+    let t522 = t479 + t514;
+    // first moments by platform coordinate of the payload's inertia force
+    let t523 = P::triple([P::lane(t472, 2), P::lane(t472, 0), P::lane(t472, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t524 = mul_add(t491, P::splat(platform_acceleration[4]), t474) + t503;
+    // mass matrix M_p of the platform
+    let t525 = P::triple([t457, P::lane(t412, 1), t478]);
+    // inertia less external wrench that the actuators must balance
+    let t526 = neg_mul_add(t518, t519, mul_add(t465, t495, t494));
+    let t527 = P::splat(platform_acceleration[1]) * t525;
+    // force along the actuator that balances the remaining wrench
+    let t528 = mul_add(t239, P::splat(P::lane(t448, 1)), t505);
+    let t529 = mul_add(t228, P::splat(P::lane(t415, 2)), t510);
+    let t530 = mul_sub(t450, P::splat(t506), t484 * P::splat(P::lane(t467, 0)));
+    let t531 = mul_sub(t451, P::splat(t506), t484 * P::splat(P::lane(t468, 0)));
+    // constant and copied elements
+    let t532 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t533 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
+    // mass matrix M_p of the platform
+    let t534 = neg_mul_add(t487, P::splat(t512), t511);
+    let t535 = P::mul_add(platform_rotation[0][2], prepared[25][2], t513);
+    let t536 = neg_mul_add(mul_add(P::splat(prepared[24][2]), t508, t489), t533, t522);
+    let t537 = mul_add(P::splat(prepared[24][2]), t481, P::splat(prepared[24][1]) * t462);
+    let t538 = P::load(&prepared[32]);
+    let t539 = mul_add(P::splat(prepared[24][2]), t532, t516);
+    let t540 = mul_add(P::splat(prepared[24][0]), t507, P::splat(prepared[25][1]) * t487);
+    // inertia less external wrench that the actuators must balance
+    let t541 = t517 + t524;
+    // mass matrix of the legs
+    let t542 = P::triple([t456, t475, t477]);
+    // mass matrix M_p of the platform
+    let t543 = P::triple([t446, t476, t483]);
+    // mass matrix of the legs
+    let t544 = t520 + t521 + t538;
+    // rotation of the platform seen from the base
+    let t545 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t546 = P::triple([P::lane(t472, 1), P::lane(t472, 2), P::lane(t472, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t547 = P::triple([P::lane(t500, 0), P::lane(t501, 0), P::lane(t502, 0)]);
+    let t548 = P::triple([P::lane(t500, 1), P::lane(t501, 1), P::lane(t502, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t549 = neg_mul_add(P::splat(platform_acceleration[2]), t543, t526);
+    // moment of the inertia force about the platform origin
+    let t550 = neg_mul_add(t545, t546, mul_add(t67, t523, t504));
+    // force along the actuator that balances the remaining wrench
+    let t551 = mul_add(t239, P::splat(P::lane(t448, 2)), t529);
+    let t552 = neg_mul_add(P::splat(P::lane(t467, 1)), t528, t530);
+    let t553 = neg_mul_add(P::splat(P::lane(t468, 1)), t528, t531);
+    // constant and copied elements
+    let t554 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t555 = neg_mul_add(t532, P::splat(t535), t534);
+    let t556 = neg_mul_add(mul_add(P::splat(prepared[24][1]), t508, t515), t554, t536);
+    let t557 = neg_mul_add(P::splat(platform_rotation[2][0]), t539, t544);
+    let t558 = mul_add(P::splat(prepared[24][1]), t532, t540);
+    let t559 = mul_add(P::splat(prepared[24][2]), t507, P::splat(prepared[24][1]) * t487);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t560 = P::triple([P::lane(t500, 2), P::lane(t501, 2), P::lane(t502, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t561 = t549 - mul_add(P::splat(platform_acceleration[0]), t542, t527);
+    // force along the actuator that balances the remaining wrench
+    let t562 = neg_mul_add(P::splat(P::lane(t467, 2)), t551, t552);
+    let t563 = neg_mul_add(P::splat(P::lane(t468, 2)), t551, t553);
+    // constant and copied elements
+    let t564 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    // force along the actuator that balances the remaining wrench
+    let t565 = t410 * P::splat(P::lane(t541, 1));
+    // mass matrix M_p of the platform
+    let t566 = neg_mul_add(mul_add(P::splat(prepared[25][2]), t508, t537), t564, t556);
+    let t567 = neg_mul_add(P::splat(platform_rotation[2][1]), t558, t557);
+    let t568 = mul_add(P::splat(prepared[25][2]), t532, t559);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t569 = mul_add(t455, P::splat(P::lane(t550, 0)), t547 + t548 + t560);
+    // inertia less external wrench that the actuators must balance
+    let t570 = neg_mul_add(P::splat(platform_acceleration[3]), t555, t561);
+    // force along the actuator that balances the remaining wrench
+    let t571 = mul_sub(t449, P::splat(t506), t484 * P::splat(P::lane(t466, 0)));
+    let t572 = mul_add(t415, P::splat(P::lane(t541, 0)), t565);
+    // mass matrix M_p of the platform
+    let t573 = neg_mul_add(P::splat(platform_rotation[2][2]), t568, t567);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t574 = mul_add(t482, P::splat(P::lane(t550, 1)), t569);
+    // inertia less external wrench that the actuators must balance
+    let t575 = neg_mul_add(P::splat(platform_acceleration[4]), t566, t570);
+    // force along the actuator that balances the remaining wrench
+    let t576 = mul_add(t448, P::splat(P::lane(t541, 2)), t572);
+    let t577 = neg_mul_add(t528, P::splat(P::lane(t466, 1)), t571);
+    let t578 = P::triple([P::lane(t562, 2), P::lane(t562, 0), P::lane(t562, 1)]);
+    let t579 = P::triple([P::lane(t563, 1), P::lane(t563, 2), P::lane(t563, 0)]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t580 = mul_add(t509, P::splat(P::lane(t550, 2)), t574);
+    // force along the actuator that balances the remaining wrench
+    let t581 = P::triple([P::lane(t562, 1), P::lane(t562, 2), P::lane(t562, 0)]);
+    let t582 = P::triple([P::lane(t563, 2), P::lane(t563, 0), P::lane(t563, 1)]);
+    let t583 = neg_mul_add(t551, P::splat(P::lane(t466, 2)), t577);
+    let t584 = mul_sub(t581, t582, t578 * t579);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t585 = P::triple([P::lane(t466, 0), P::lane(t467, 0), P::lane(t468, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t586 = t580 + neg_mul_add(P::splat(platform_acceleration[5]), t573, t575);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t587 = P::triple([P::lane(t466, 1), P::lane(t467, 1), P::lane(t468, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t588 = mul_add(P::splat(t506), t586, P::splat(P::lane(t576, 0)) * t585);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t589 = P::triple([P::lane(t466, 2), P::lane(t467, 2), P::lane(t468, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t590 = P::lane(t583, 1) * P::lane(t584, 1);
+    let t591 = P::triple([P::lane(t583, 1), P::lane(t583, 2), P::lane(t583, 0)]);
+    let t592 = mul_add(P::splat(P::lane(t576, 1)), t587, t588);
+    let t593 = P::triple([P::lane(t583, 2), P::lane(t583, 0), P::lane(t583, 1)]);
+    let t594 = P::mul_add(P::lane(t583, 0), P::lane(t584, 0), t590);
+    let t595 = mul_add(P::splat(P::lane(t576, 2)), t589, t592);
+    let t596 = P::triple([P::lane(t484, 0), P::lane(t528, 0), P::lane(t551, 0)]);
+    let t597 = mul_sub(t578, t591, t581 * t593);
+    let t598 = c(1.0) / P::mul_add(P::lane(t583, 2), P::lane(t584, 2), t594);
+    let t599 = P::triple([P::lane(t484, 1), P::lane(t528, 1), P::lane(t551, 1)]);
+    let t600 = mul_sub(t579, t593, t582 * t591) * P::splat(P::lane(t595, 1));
+    let t601 = mul_add(t584, P::splat(P::lane(t595, 0)), t600);
+    let t602 = P::triple([P::lane(t484, 2), P::lane(t528, 2), P::lane(t551, 2)]);
+    let t603 = P::splat(t598) * mul_add(t597, P::splat(P::lane(t595, 2)), t601);
+    // inertia less external wrench that the actuators must balance
+    let t604 = -P::lane(t586, 0);
+    let t605 = -P::lane(t586, 1);
+    // force along the actuator that balances the remaining wrench
+    let t606 = -t603;
+    let t607 = mul_add(t596, P::splat(P::lane(t603, 0)), t576);
+    // inertia less external wrench that the actuators must balance
+    let t608 = -P::lane(t586, 2);
+    // force along the actuator that balances the remaining wrench
+    let t609 = mul_add(t599, P::splat(P::lane(t603, 1)), t607);
+    let t610 = mul_add(t602, P::splat(P::lane(t603, 2)), t609);
+    let t611 = P::splat(c(1.0) / t506) * t610;
+    let axial_reaction = solve_after_attempt_in_lanes::<P>(
+        &[t606, t611],
+        &[
+            [t228, t227],
+            [t238, t234],
+            [t239, t229],
+            [t449, t466],
+            [t450, t467],
+            [t451, t468],
+        ],
+        &[P::lane(t541, 0), P::lane(t541, 1), P::lane(t541, 2), t604, t605, t608],
+        &[1, 3, 5, 0, 2, 4],
+    );
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t59, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t60, 0);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t59, 1);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t60, 1);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t59, 2);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t60, 2);
+    // leg 1: actuator velocity d'
+    actuator_velocity[0] = P::lane(t132, 0);
+    // leg 2: actuator velocity d'
+    actuator_velocity[1] = P::lane(t133, 0);
+    // leg 3: actuator velocity d'
+    actuator_velocity[2] = P::lane(t132, 1);
+    // leg 4: actuator velocity d'
+    actuator_velocity[3] = P::lane(t133, 1);
+    // leg 5: actuator velocity d'
+    actuator_velocity[4] = P::lane(t132, 2);
+    // leg 6: actuator velocity d'
+    actuator_velocity[5] = P::lane(t133, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t227, 0);
+    jacobian_dp[0][1] = P::lane(t234, 0);
+    jacobian_dp[0][2] = P::lane(t229, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t466, 0);
+    jacobian_dp[0][4] = P::lane(t467, 0);
+    jacobian_dp[0][5] = P::lane(t468, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t228, 0);
+    jacobian_dp[1][1] = P::lane(t238, 0);
+    jacobian_dp[1][2] = P::lane(t239, 0);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t449, 0);
+    jacobian_dp[1][4] = P::lane(t450, 0);
+    jacobian_dp[1][5] = P::lane(t451, 0);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t227, 1);
+    jacobian_dp[2][1] = P::lane(t234, 1);
+    jacobian_dp[2][2] = P::lane(t229, 1);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t466, 1);
+    jacobian_dp[2][4] = P::lane(t467, 1);
+    jacobian_dp[2][5] = P::lane(t468, 1);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t228, 1);
+    jacobian_dp[3][1] = P::lane(t238, 1);
+    jacobian_dp[3][2] = P::lane(t239, 1);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t449, 1);
+    jacobian_dp[3][4] = P::lane(t450, 1);
+    jacobian_dp[3][5] = P::lane(t451, 1);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t227, 2);
+    jacobian_dp[4][1] = P::lane(t234, 2);
+    jacobian_dp[4][2] = P::lane(t229, 2);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t466, 2);
+    jacobian_dp[4][4] = P::lane(t467, 2);
+    jacobian_dp[4][5] = P::lane(t468, 2);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t228, 2);
+    jacobian_dp[5][1] = P::lane(t238, 2);
+    jacobian_dp[5][2] = P::lane(t239, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t449, 2);
+    jacobian_dp[5][4] = P::lane(t450, 2);
+    jacobian_dp[5][5] = P::lane(t451, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t404, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t325, 1);
+    mass_matrix_p[0][2] = P::lane(t325, 2);
+    mass_matrix_p[1][0] = P::lane(t325, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t380, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t364, 2);
+    mass_matrix_p[1][4] = P::lane(t412, 1);
+    mass_matrix_p[2][0] = P::lane(t325, 2);
+    mass_matrix_p[2][1] = P::lane(t364, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t435, 2);
+    mass_matrix_p[3][3] = P::lane(t555, 0);
+    mass_matrix_p[3][4] = P::lane(t555, 1);
+    mass_matrix_p[3][5] = P::lane(t555, 2);
+    // mass matrix of the legs
+    mass_matrix_p[4][1] = P::lane(t412, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[4][3] = P::lane(t555, 1);
+    mass_matrix_p[4][4] = P::lane(t566, 1);
+    mass_matrix_p[4][5] = P::lane(t566, 2);
+    mass_matrix_p[5][3] = P::lane(t555, 2);
+    mass_matrix_p[5][4] = P::lane(t566, 2);
+    mass_matrix_p[5][5] = P::lane(t573, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t517, 0);
+    total_bias[1] = P::lane(t517, 1);
+    total_bias[2] = P::lane(t517, 2);
+    total_bias[3] = -P::lane(t580, 0);
+    total_bias[4] = -P::lane(t580, 1);
+    total_bias[5] = -P::lane(t580, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = axial_reaction[0];
+    inverse_dynamics[1] = axial_reaction[1];
+    inverse_dynamics[2] = axial_reaction[2];
+    inverse_dynamics[3] = axial_reaction[3];
+    inverse_dynamics[4] = axial_reaction[4];
+    inverse_dynamics[5] = axial_reaction[5];
+}
+
+/// What follows from the parameters alone, for \`forward_dynamics\`.
+///
+/// Inputs:
+///
+///
+/// Outputs:
+///
+/// - `prepared`: 41x4, SI: what follows from the parameters alone.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn prepare_forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    prepared: &mut [[T; 4]; 41],
+) {
+    let c = T::constant;
+    // second moment of payload and platform-side leg ends
+    let t1 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    prepared[12][0] = t1;
+    let t2 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    prepared[12][1] = t2;
+    let t3 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    prepared[12][2] = t3;
+    prepared[12][3] = t3;
+    let t4 = parameters.platform_point[3][1] * parameters.platform_point[3][0];
+    prepared[13][0] = t4;
+    let t5 = parameters.platform_point[4][1] * parameters.platform_point[4][0];
+    prepared[13][1] = t5;
+    let t6 = parameters.platform_point[5][1] * parameters.platform_point[5][0];
+    prepared[13][2] = t6;
+    prepared[13][3] = t6;
+    let t7 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    prepared[14][0] = t7;
+    let t8 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    prepared[14][1] = t8;
+    let t9 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    prepared[14][2] = t9;
+    prepared[14][3] = t9;
+    let t10 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    prepared[15][0] = t10;
+    let t11 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    prepared[15][1] = t11;
+    let t12 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    prepared[15][2] = t12;
+    prepared[15][3] = t12;
+    let t13 = parameters.platform_point[0][1] * parameters.platform_point[0][0];
+    prepared[16][0] = t13;
+    let t14 = parameters.platform_point[1][1] * parameters.platform_point[1][0];
+    prepared[16][1] = t14;
+    let t15 = parameters.platform_point[2][1] * parameters.platform_point[2][0];
+    prepared[16][2] = t15;
+    prepared[16][3] = t15;
+    let t16 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    prepared[17][0] = t16;
+    let t17 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    prepared[17][1] = t17;
+    let t18 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    prepared[17][2] = t18;
+    prepared[17][3] = t18;
+    let t19 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    prepared[18][0] = t19;
+    let t20 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    prepared[18][1] = t20;
+    let t21 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    prepared[18][2] = t21;
+    prepared[18][3] = t21;
+    let t22 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    prepared[19][0] = t22;
+    let t23 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    prepared[19][1] = t23;
+    let t24 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    prepared[19][2] = t24;
+    prepared[19][3] = t24;
+    let t25 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    prepared[20][0] = t25;
+    let t26 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    prepared[20][1] = t26;
+    let t27 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    prepared[20][2] = t27;
+    prepared[20][3] = t27;
+    let t28 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    prepared[21][0] = t28;
+    let t29 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    prepared[21][1] = t29;
+    let t30 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    prepared[21][2] = t30;
+    prepared[21][3] = t30;
+    let t31 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    prepared[23][0] = t31;
+    let t32 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    prepared[23][1] = t32;
+    let t33 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    prepared[23][2] = t33;
+    prepared[23][3] = t33;
+    let t34 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    prepared[25][0] = t34;
+    let t35 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    prepared[25][1] = t35;
+    let t36 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    prepared[25][2] = t36;
+    prepared[25][3] = t36;
+    let t37 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t38 = mul_add(t15, parameters.upper_mass[2], t6 * parameters.upper_mass[5]);
+    let t39 = mul_add(t13, parameters.upper_mass[0], t4 * parameters.upper_mass[3]);
+    let t40 = mul_add(t14, parameters.upper_mass[1], t5 * parameters.upper_mass[4]);
+    let t41 = mul_add(t37, parameters.payload_mass, t38 + (t39 + t40));
+    prepared[37][0] = t41 - parameters.payload_inertia[0][1];
+    let t42 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t43 = mul_add(parameters.upper_mass[2], t30, parameters.upper_mass[5] * t24);
+    let t44 = mul_add(parameters.upper_mass[0], t28, parameters.upper_mass[3] * t22);
+    let t45 = mul_add(parameters.upper_mass[1], t29, parameters.upper_mass[4] * t23);
+    let t46 = mul_add(t42, parameters.payload_mass, t43 + (t44 + t45));
+    prepared[37][1] = t46 - parameters.payload_inertia[1][2];
+    let t47 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t48 = mul_add(t18, parameters.upper_mass[2], t9 * parameters.upper_mass[5]);
+    let t49 = mul_add(t16, parameters.upper_mass[0], t7 * parameters.upper_mass[3]);
+    let t50 = mul_add(t17, parameters.upper_mass[1], t8 * parameters.upper_mass[4]);
+    let t51 = mul_add(t47, parameters.payload_mass, t48 + (t49 + t50));
+    let t52 = t51 - parameters.payload_inertia[0][2];
+    prepared[37][2] = t52;
+    prepared[37][3] = t52;
+    let t53 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t54 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t55 = t54 + parameters.payload_inertia[2][2];
+    let t56 = mul_add(t12, parameters.upper_mass[2], t3 * parameters.upper_mass[5]);
+    let t57 = mul_add(t10, parameters.upper_mass[0], t1 * parameters.upper_mass[3]);
+    let t58 = mul_add(t11, parameters.upper_mass[1], t2 * parameters.upper_mass[4]);
+    let t59 = mul_add(t55, c(0.5), t56 + (t57 + t58));
+    let t60 = t59 - parameters.payload_inertia[0][0];
+    prepared[38][0] = mul_add(parameters.payload_mass, t53, t60);
+    let t61 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t62 = mul_add(parameters.upper_mass[2], t27, parameters.upper_mass[5] * t21);
+    let t63 = mul_add(parameters.upper_mass[0], t25, parameters.upper_mass[3] * t19);
+    let t64 = mul_add(parameters.upper_mass[1], t26, parameters.upper_mass[4] * t20);
+    let t65 = mul_add(t55, c(0.5), t62 + (t63 + t64));
+    let t66 = t65 - parameters.payload_inertia[1][1];
+    prepared[38][1] = mul_add(parameters.payload_mass, t61, t66);
+    let t67 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t68 = mul_add(parameters.upper_mass[2], t36, parameters.upper_mass[5] * t33);
+    let t69 = mul_add(parameters.upper_mass[0], t34, parameters.upper_mass[3] * t31);
+    let t70 = mul_add(parameters.upper_mass[1], t35, parameters.upper_mass[4] * t32);
+    let t71 = mul_add(t55, c(0.5), t68 + (t69 + t70));
+    let t72 = t71 - parameters.payload_inertia[2][2];
+    let t73 = mul_add(parameters.payload_mass, t67, t72);
+    prepared[38][2] = t73;
+    prepared[38][3] = t73;
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t74 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    prepared[22][0] = t74;
+    let t75 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    prepared[22][1] = t75;
+    let t76 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    prepared[22][2] = t76;
+    prepared[22][3] = t76;
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t77 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    prepared[24][0] = t77;
+    let t78 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    prepared[24][1] = t78;
+    let t79 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    prepared[24][2] = t79;
+    prepared[24][3] = t79;
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t80 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    prepared[26][2] = t80;
+    prepared[26][3] = t80;
+    let t81 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    prepared[26][0] = t81;
+    let t82 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    prepared[26][1] = t82;
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t83 = mul_add(parameters.lower_com_distance[3], t74, parameters.lower_inertia[3]);
+    let t84 = t83 + parameters.upper_inertia[3];
+    prepared[28][0] = mul_add(parameters.upper_com_distance[3], t81, t84);
+    let t85 = mul_add(parameters.lower_com_distance[4], t75, parameters.lower_inertia[4]);
+    let t86 = t85 + parameters.upper_inertia[4];
+    prepared[28][1] = mul_add(parameters.upper_com_distance[4], t82, t86);
+    let t87 = mul_add(parameters.lower_com_distance[5], t76, parameters.lower_inertia[5]);
+    let t88 = t87 + parameters.upper_inertia[5];
+    let t89 = mul_add(parameters.upper_com_distance[5], t80, t88);
+    prepared[28][2] = t89;
+    prepared[28][3] = t89;
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t90 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    prepared[27][2] = t90;
+    prepared[27][3] = t90;
+    let t91 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    prepared[27][0] = t91;
+    let t92 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    prepared[27][1] = t92;
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t93 = mul_add(parameters.lower_com_distance[0], t77, parameters.lower_inertia[0]);
+    let t94 = t93 + parameters.upper_inertia[0];
+    prepared[30][0] = mul_add(parameters.upper_com_distance[0], t91, t94);
+    let t95 = mul_add(parameters.lower_com_distance[1], t78, parameters.lower_inertia[1]);
+    let t96 = t95 + parameters.upper_inertia[1];
+    prepared[30][1] = mul_add(parameters.upper_com_distance[1], t92, t96);
+    let t97 = mul_add(parameters.lower_com_distance[2], t79, parameters.lower_inertia[2]);
+    let t98 = t97 + parameters.upper_inertia[2];
+    let t99 = mul_add(parameters.upper_com_distance[2], t90, t98);
+    prepared[30][2] = t99;
+    prepared[30][3] = t99;
+    // first moment of payload and platform-side leg ends
+    let t100 = parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t101 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t100);
+    let t102 = parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t103 = mul_add(parameters.platform_point[0][0], parameters.upper_mass[0], t102);
+    let t104 = parameters.platform_point[4][0] * parameters.upper_mass[4];
+    let t105 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t104);
+    let t106 = t101 + (t103 + t105);
+    prepared[36][0] = mul_add(parameters.payload_com[0], parameters.payload_mass, t106);
+    let t107 = parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t108 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t107);
+    let t109 = parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t110 = mul_add(parameters.platform_point[0][1], parameters.upper_mass[0], t109);
+    let t111 = parameters.platform_point[4][1] * parameters.upper_mass[4];
+    let t112 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t111);
+    let t113 = t108 + (t110 + t112);
+    prepared[36][1] = mul_add(parameters.payload_com[1], parameters.payload_mass, t113);
+    let t114 = parameters.platform_point[5][2] * parameters.upper_mass[5];
+    let t115 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t114);
+    let t116 = parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t117 = mul_add(parameters.platform_point[0][2], parameters.upper_mass[0], t116);
+    let t118 = parameters.platform_point[4][2] * parameters.upper_mass[4];
+    let t119 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t118);
+    let t120 = t115 + (t117 + t119);
+    let t121 = mul_add(parameters.payload_com[2], parameters.payload_mass, t120);
+    prepared[36][2] = t121;
+    prepared[36][3] = t121;
+    // mass of payload and platform-side leg ends
+    let t122 = parameters.upper_mass[4] + parameters.upper_mass[1];
+    let t123 = parameters.upper_mass[3] + parameters.upper_mass[0] + t122;
+    let t124 = parameters.upper_mass[5] + parameters.upper_mass[2] + t123;
+    let t125 = parameters.payload_mass + t124;
+    prepared[40][0] = t125;
+    prepared[40][1] = t125;
+    prepared[40][2] = t125;
+    prepared[40][3] = t125;
+    // constant and copied elements
+    prepared[0][0] = parameters.platform_point[0][1];
+    prepared[0][1] = parameters.platform_point[1][1];
+    prepared[0][2] = parameters.platform_point[2][1];
+    prepared[0][3] = parameters.platform_point[2][1];
+    prepared[1][0] = parameters.platform_point[0][0];
+    prepared[1][1] = parameters.platform_point[1][0];
+    prepared[1][2] = parameters.platform_point[2][0];
+    prepared[1][3] = parameters.platform_point[2][0];
+    prepared[2][0] = parameters.platform_point[0][2];
+    prepared[2][1] = parameters.platform_point[1][2];
+    prepared[2][2] = parameters.platform_point[2][2];
+    prepared[2][3] = parameters.platform_point[2][2];
+    prepared[3][0] = parameters.platform_point[3][1];
+    prepared[3][1] = parameters.platform_point[4][1];
+    prepared[3][2] = parameters.platform_point[5][1];
+    prepared[3][3] = parameters.platform_point[5][1];
+    prepared[4][0] = parameters.platform_point[3][0];
+    prepared[4][1] = parameters.platform_point[4][0];
+    prepared[4][2] = parameters.platform_point[5][0];
+    prepared[4][3] = parameters.platform_point[5][0];
+    prepared[5][0] = parameters.base_point[0][1];
+    prepared[5][1] = parameters.base_point[1][1];
+    prepared[5][2] = parameters.base_point[2][1];
+    prepared[5][3] = parameters.base_point[2][1];
+    prepared[6][0] = parameters.base_point[0][0];
+    prepared[6][1] = parameters.base_point[1][0];
+    prepared[6][2] = parameters.base_point[2][0];
+    prepared[6][3] = parameters.base_point[2][0];
+    prepared[7][0] = parameters.platform_point[3][2];
+    prepared[7][1] = parameters.platform_point[4][2];
+    prepared[7][2] = parameters.platform_point[5][2];
+    prepared[7][3] = parameters.platform_point[5][2];
+    prepared[8][0] = parameters.base_point[0][2];
+    prepared[8][1] = parameters.base_point[1][2];
+    prepared[8][2] = parameters.base_point[2][2];
+    prepared[8][3] = parameters.base_point[2][2];
+    prepared[9][0] = parameters.base_point[3][1];
+    prepared[9][1] = parameters.base_point[4][1];
+    prepared[9][2] = parameters.base_point[5][1];
+    prepared[9][3] = parameters.base_point[5][1];
+    prepared[10][0] = parameters.base_point[3][0];
+    prepared[10][1] = parameters.base_point[4][0];
+    prepared[10][2] = parameters.base_point[5][0];
+    prepared[10][3] = parameters.base_point[5][0];
+    prepared[11][0] = parameters.base_point[3][2];
+    prepared[11][1] = parameters.base_point[4][2];
+    prepared[11][2] = parameters.base_point[5][2];
+    prepared[11][3] = parameters.base_point[5][2];
+    prepared[29][0] = parameters.rest_length[0];
+    prepared[29][1] = parameters.rest_length[1];
+    prepared[29][2] = parameters.rest_length[2];
+    prepared[29][3] = parameters.rest_length[2];
+    prepared[31][0] = parameters.axial_stiffness[0];
+    prepared[31][1] = parameters.axial_stiffness[1];
+    prepared[31][2] = parameters.axial_stiffness[2];
+    prepared[31][3] = parameters.axial_stiffness[2];
+    prepared[32][0] = parameters.axial_damping[0];
+    prepared[32][1] = parameters.axial_damping[1];
+    prepared[32][2] = parameters.axial_damping[2];
+    prepared[32][3] = parameters.axial_damping[2];
+    prepared[33][0] = parameters.rest_length[3];
+    prepared[33][1] = parameters.rest_length[4];
+    prepared[33][2] = parameters.rest_length[5];
+    prepared[33][3] = parameters.rest_length[5];
+    prepared[34][0] = parameters.axial_stiffness[3];
+    prepared[34][1] = parameters.axial_stiffness[4];
+    prepared[34][2] = parameters.axial_stiffness[5];
+    prepared[34][3] = parameters.axial_stiffness[5];
+    prepared[35][0] = parameters.axial_damping[3];
+    prepared[35][1] = parameters.axial_damping[4];
+    prepared[35][2] = parameters.axial_damping[5];
+    prepared[35][3] = parameters.axial_damping[5];
+    prepared[39][0] = parameters.gravity[0];
+    prepared[39][1] = parameters.gravity[1];
+    prepared[39][2] = parameters.gravity[2];
+    prepared[39][3] = parameters.gravity[2];
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+/// - `prepared`: 41x4, SI: what follows from the parameters alone.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_prepared_in_lanes<P: Triple>(
+    parameters: &Parameters<P::Lane>,
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    prepared: &[[P::Lane; 4]; 41],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    // rotation of the platform seen from the base
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = t1 * P::splat(platform_rotation[1][2]);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t8 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+    // constant and copied elements
+    let t9 = P::load(&prepared[0]);
+    // rotation of the platform seen from the base
+    let t10 = mul_add(t2, P::splat(platform_rotation[0][2]), t6);
+    // platform origin seen from the base
+    let t11 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t12 = P::load(&prepared[1]);
+    let t13 = P::load(&prepared[2]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t7);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t8);
+    // platform origin seen from the base
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t11);
+    // rotation of the platform seen from the base
+    let t17 = mul_add(t5, P::splat(platform_rotation[2][2]), t10);
+    // constant and copied elements
+    let t18 = P::load(&prepared[3]);
+    let t19 = P::load(&prepared[4]);
+    let t20 = P::load(&prepared[5]);
+    let t21 = P::load(&prepared[6]);
+    // platform origin seen from the base
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t23 = t9 * P::splat(P::lane(t14, 0));
+    let t24 = t9 * P::splat(P::lane(t14, 1));
+    let t25 = mul_add(t12, P::splat(P::lane(t15, 0)), t23);
+    let t26 = t9 * P::splat(P::lane(t14, 2));
+    let t27 = mul_add(t12, P::splat(P::lane(t15, 1)), t24);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t28 = t18 * P::splat(P::lane(t14, 1));
+    let t29 = t18 * P::splat(P::lane(t14, 0));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t15, 2)), t26);
+    let t31 = mul_add(t13, P::splat(P::lane(t17, 0)), t25);
+    let t32 = mul_add(t13, P::splat(P::lane(t17, 1)), t27);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t19, P::splat(P::lane(t15, 1)), t28);
+    let t34 = mul_add(t19, P::splat(P::lane(t15, 0)), t29);
+    // constant and copied elements
+    let t35 = P::load(&prepared[7]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t36 = t18 * P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(t13, P::splat(P::lane(t17, 2)), t30);
+    // constant and copied elements
+    let t38 = P::load(&prepared[8]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t39 = mul_add(P::splat(P::lane(t17, 1)), t35, t33);
+    let t40 = mul_add(P::splat(P::lane(t17, 0)), t35, t34);
+    let t41 = mul_add(t19, P::splat(P::lane(t15, 2)), t36);
+    // legs 1, 2, 3: platform joint from the base point
+    let t42 = P::splat(P::lane(t22, 0)) + t31 - t21;
+    let t43 = P::splat(P::lane(t22, 1)) + t32 - t20;
+    // constant and copied elements
+    let t44 = P::load(&prepared[9]);
+    let t45 = P::load(&prepared[10]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t46 = P::splat(P::lane(t22, 2)) + t37 - t38;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t47 = mul_add(P::splat(P::lane(t17, 2)), t35, t41);
+    // angular velocity of the base
+    let t48 = t1 * P::splat(base_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t49 = P::splat(P::lane(t22, 1)) + t39 - t44;
+    let t50 = P::splat(P::lane(t22, 0)) + t40 - t45;
+    // angular velocity of the platform
+    let t51 = t1 * P::splat(platform_velocity[4]);
+    // constant and copied elements
+    let t52 = P::load(&prepared[11]);
+    // angular velocity of the base
+    let t53 = mul_add(t2, P::splat(base_velocity[3]), t48);
+    // angular velocity of the platform
+    let t54 = mul_add(t2, P::splat(platform_velocity[3]), t51);
+    // legs 4, 5, 6: platform joint from the base point
+    let t55 = P::splat(P::lane(t22, 2)) + t47 - t52;
+    // velocity of the platform origin relative to the base
+    let t56 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the base
+    let t57 = mul_add(t5, P::splat(base_velocity[5]), t53);
+    // angular velocity of the platform
+    let t58 = mul_add(t5, P::splat(platform_velocity[5]), t54);
+    // platform origin seen from the base
+    let t59 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // legs 1, 2, 3: actuator length d
+    let t60 = sqrt(mul_add(t46, t46, mul_add(t42, t42, t43 * t43)));
+    // velocity of the platform origin relative to the base
+    let t61 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t56);
+    // platform origin seen from the base
+    let t62 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // rotation of the platform seen from the base
+    let t63 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // legs 4, 5, 6: actuator length d
+    let t64 = sqrt(mul_add(t55, t55, mul_add(t50, t50, t49 * t49)));
+    // velocity of the platform origin relative to the base
+    let t65 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t61);
+    // angular acceleration of the base
+    let t66 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the platform relative to the base
+    let t67 = t57 - t58;
+    // angular velocity of the base
+    let t68 = P::triple([P::lane(t57, 1), P::lane(t57, 2), P::lane(t57, 0)]);
+    // angular velocity of the platform
+    let t69 = P::triple([P::lane(t58, 1), P::lane(t58, 2), P::lane(t58, 0)]);
+    // angular velocity of the base
+    let t70 = P::triple([P::lane(t57, 2), P::lane(t57, 0), P::lane(t57, 1)]);
+    // rotation of the platform seen from the base
+    let t71 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular acceleration of the base
+    let t72 = mul_add(t2, P::splat(base_acceleration[3]), t66);
+    // acceleration per platform coordinate of points of the platform
+    let t73 = mul_sub(t58, t63, t14 * t69);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t62, t70, neg_mul_add(t59, t68, t65));
+    // acceleration per platform coordinate of points of the platform
+    let t75 = mul_sub(t58, t71, t15 * t69);
+    // rotation of the platform seen from the base
+    let t76 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // angular acceleration of the base
+    let t77 = mul_add(t5, P::splat(base_acceleration[5]), t72);
+    // acceleration per platform coordinate of points of the platform
+    let t78 = mul_sub(t58, t76, t17 * t69);
+    // angular velocity of the base
+    let t79 = P::triple([P::lane(t57, 0), P::lane(t57, 2), P::lane(t57, 0)]);
+    let t80 = P::triple([P::lane(t57, 1), P::lane(t57, 1), P::lane(t57, 2)]);
+    // angular velocity of the platform
+    let t81 = P::triple([P::lane(t58, 2), P::lane(t58, 0), P::lane(t58, 1)]);
+    // legs 1, 2, 3: reciprocal of the actuator length
+    let t82 = w(1.0) / t60;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t83 = neg_mul_add(t31, P::splat(P::lane(t67, 2)), P::splat(P::lane(t74, 1)));
+    // acceleration per platform coordinate of points of the platform
+    let t84 = P::triple([P::lane(t73, 2), P::lane(t73, 0), P::lane(t73, 1)]);
+    // acceleration of the base origin less gravity
+    let t85 = base_acceleration[0] - parameters.gravity[0];
+    let t86 = t1 * P::splat(base_acceleration[1] - parameters.gravity[1]);
+    // angular velocity of the base
+    let t87 = P::triple([P::lane(t57, 2), P::lane(t57, 2), P::lane(t57, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t88 = t79 * t80;
+    // legs 4, 5, 6: reciprocal of the actuator length
+    let t89 = w(1.0) / t64;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t90 = neg_mul_add(t37, P::splat(P::lane(t67, 1)), P::splat(P::lane(t74, 0)));
+    // acceleration per platform coordinate of points of the platform
+    let t91 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t92 = mul_add(t37, P::splat(P::lane(t67, 0)), t83);
+    // angular velocity of the base
+    let t93 = P::triple([P::lane(t57, 1), P::lane(t57, 0), P::lane(t57, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t94 = mul_sub(t69, t73, t81 * t84);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t95 = t43 * t82;
+    // acceleration of the base origin less gravity
+    let t96 = base_acceleration[2] - parameters.gravity[2];
+    // acceleration per base coordinate of points that move with the base
+    let t97 = mul_add(t93, t93, t87 * t87);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t98 = mul_add(t32, P::splat(P::lane(t67, 2)), t90);
+    let t99 = neg_mul_add(t32, P::splat(P::lane(t67, 0)), P::splat(P::lane(t74, 2)));
+    // angular acceleration of the base
+    let t100 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t101 = mul_sub(t69, t75, t81 * t91);
+    let t102 = P::triple([P::lane(t78, 2), P::lane(t78, 0), P::lane(t78, 1)]);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t103 = t42 * t82;
+    // acceleration of the base origin less gravity
+    let t104 = mul_add(t5, P::splat(t96), mul_add(t2, P::splat(t85), t86));
+    // acceleration per base coordinate of points that move with the base
+    let t105 = mul_sub(t79, t80, t100);
+    // angular acceleration of the base
+    let t106 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t107 = P::triple([P::lane(t88, 2), P::lane(t88, 0), P::lane(t88, 1)]);
+    let t108 = t106 + t107;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t109 = neg_mul_add(t40, P::splat(P::lane(t67, 2)), P::splat(P::lane(t74, 1)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t110 = mul_add(t31, P::splat(P::lane(t67, 1)), t99);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t111 = mul_add(t42, P::splat(P::lane(t57, 2)), t92);
+    // acceleration per platform coordinate of points of the platform
+    let t112 = mul_sub(t69, t78, t81 * t102);
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t113 = t46 * t82;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t114 = t9 * P::splat(P::lane(t94, 1));
+    let t115 = t20 * P::splat(P::lane(t97, 1));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t116 = neg_mul_add(t47, P::splat(P::lane(t67, 1)), P::splat(P::lane(t74, 0)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t117 = mul_add(t46, P::splat(P::lane(t57, 1)), t98);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t118 = mul_add(t47, P::splat(P::lane(t67, 0)), t109);
+    // legs 1, 2, 3: actuator velocity d'
+    let t119 = mul_add(t110, t113, mul_add(t98, t103, t92 * t95));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t120 = neg_mul_add(t46, P::splat(P::lane(t57, 0)), t111);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t121 = t9 * P::splat(P::lane(t94, 0));
+    let t122 = mul_add(t12, P::splat(P::lane(t101, 1)), t114);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t123 = t49 * t89;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t124 = t20 * P::splat(P::lane(t105, 0));
+    let t125 = mul_add(t38, P::splat(P::lane(t105, 1)), P::splat(P::lane(t104, 1)));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t126 = mul_add(t39, P::splat(P::lane(t67, 2)), t116);
+    let t127 = neg_mul_add(t39, P::splat(P::lane(t67, 0)), P::splat(P::lane(t74, 2)));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t128 = neg_mul_add(t43, P::splat(P::lane(t57, 2)), t117);
+    let t129 = mul_add(t43, P::splat(P::lane(t57, 0)), t110);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t130 = mul_add(t12, P::splat(P::lane(t101, 0)), t121);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t131 = t50 * t89;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t132 = mul_add(t38, P::splat(P::lane(t108, 0)), P::splat(P::lane(t104, 0)));
+    let t133 = mul_add(t13, P::splat(P::lane(t112, 1)), t122);
+    let t134 = t9 * P::splat(P::lane(t94, 2));
+    let t135 = mul_sub(t21, P::splat(P::lane(t108, 1)), t115) + t125;
+    let t136 = t20 * P::splat(P::lane(t108, 2));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t137 = mul_add(t40, P::splat(P::lane(t67, 1)), t127);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t138 = mul_add(t50, P::splat(P::lane(t57, 2)), t118);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t139 = neg_mul_add(t42, P::splat(P::lane(t57, 1)), t129);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t140 = mul_add(t13, P::splat(P::lane(t112, 0)), t130);
+    let t141 = mul_add(t12, P::splat(P::lane(t101, 2)), t134);
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t142 = t55 * t89;
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t143 = t82 * neg_mul_add(t95, t119, t120);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t144 = t132 - mul_sub(t21, P::splat(P::lane(t97, 0)), t124);
+    let t145 = t133 - t135;
+    let t146 = neg_mul_add(t38, P::splat(P::lane(t97, 2)), P::splat(P::lane(t104, 2)));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t147 = t18 * P::splat(P::lane(t94, 1));
+    let t148 = t44 * P::splat(P::lane(t97, 1));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t149 = mul_add(t55, P::splat(P::lane(t57, 1)), t126);
+    // legs 4, 5, 6: actuator velocity d'
+    let t150 = mul_add(t137, t142, mul_add(t126, t131, t118 * t123));
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t151 = t82 * neg_mul_add(t103, t119, t128);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t152 = neg_mul_add(t55, P::splat(P::lane(t57, 0)), t138);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t153 = t140 - t144;
+    let t154 = mul_add(t13, P::splat(P::lane(t112, 2)), t141);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t155 = t18 * P::splat(P::lane(t94, 0));
+    let t156 = mul_add(t19, P::splat(P::lane(t101, 1)), t147);
+    // second moment of payload and platform-side leg ends
+    let t157 = P::load(&prepared[12]);
+    let t158 = P::load(&prepared[13]);
+    let t159 = P::load(&prepared[14]);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t160 = mul_add(t21, P::splat(P::lane(t105, 2)), t136) + t146;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t161 = t44 * P::splat(P::lane(t105, 0));
+    let t162 = mul_add(t52, P::splat(P::lane(t105, 1)), P::splat(P::lane(t104, 1)));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t163 = neg_mul_add(t49, P::splat(P::lane(t57, 2)), t149);
+    let t164 = mul_add(t49, P::splat(P::lane(t57, 0)), t137);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t165 = mul_add(t19, P::splat(P::lane(t101, 0)), t155);
+    // second moment of payload and platform-side leg ends
+    let t166 = P::load(&prepared[15]);
+    let t167 = P::load(&prepared[16]);
+    let t168 = P::load(&prepared[17]);
+    // legs 1, 2, 3: inertial rate of that gradient
+    let t169 = t82 * neg_mul_add(t113, t119, t139);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t170 = t154 - t160;
+    // legs 4, 5, 6: actuator acceleration d''
+    let t171 = mul_add(t52, P::splat(P::lane(t108, 0)), P::splat(P::lane(t104, 0)));
+    let t172 = mul_add(t35, P::splat(P::lane(t112, 1)), t156);
+    let t173 = t18 * P::splat(P::lane(t94, 2));
+    let t174 = mul_sub(t45, P::splat(P::lane(t108, 1)), t148) + t162;
+    let t175 = t44 * P::splat(P::lane(t108, 2));
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t176 = neg_mul_add(t50, P::splat(P::lane(t57, 1)), t164);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t177 = mul_add(t113, t170, mul_add(t103, t153, t95 * t145));
+    let t178 = mul_add(t169, t169, mul_add(t151, t151, t143 * t143));
+    // legs 4, 5, 6: actuator acceleration d''
+    let t179 = mul_add(t35, P::splat(P::lane(t112, 0)), t165);
+    let t180 = mul_add(t19, P::splat(P::lane(t101, 2)), t173);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t181 = t89 * neg_mul_add(t123, t150, t152);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t182 = t171 - mul_sub(t45, P::splat(P::lane(t97, 0)), t161);
+    let t183 = t172 - t174;
+    let t184 = neg_mul_add(t52, P::splat(P::lane(t97, 2)), P::splat(P::lane(t104, 2)));
+    // second moment of payload and platform-side leg ends
+    let t185 = P::load(&prepared[18]);
+    let t186 = P::load(&prepared[19]);
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t187 = t89 * neg_mul_add(t131, t150, t163);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t188 = mul_add(t60, t178, t177);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t189 = t179 - t182;
+    let t190 = mul_add(t35, P::splat(P::lane(t112, 2)), t180);
+    // second moment of payload and platform-side leg ends
+    let t191 = P::load(&prepared[20]);
+    let t192 = P::load(&prepared[21]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t193 = mul_add(t45, P::splat(P::lane(t105, 2)), t175) + t184;
+    // legs 4, 5, 6: inertial rate of that gradient
+    let t194 = t89 * neg_mul_add(t142, t150, t176);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t195 = t190 - t193;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t196 = t119 * w(2.0);
+    // legs 4, 5, 6: first moment of the lower part about the base joint
+    let t197 = P::load(&prepared[22]);
+    // second moment of payload and platform-side leg ends
+    let t198 = P::load(&prepared[23]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t199 = mul_add(t142, t195, mul_add(t131, t189, t123 * t183));
+    let t200 = mul_add(t194, t194, mul_add(t187, t187, t181 * t181));
+    // legs 1, 2, 3: first moment of the lower part about the base joint
+    let t201 = P::load(&prepared[24]);
+    // second moment of payload and platform-side leg ends
+    let t202 = P::load(&prepared[25]);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t203 = mul_add(t64, t200, t199);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t204 = t82 * neg_mul_add(t143, t196, neg_mul_add(t95, t188, t145));
+    // legs 4, 5, 6: first moment of the upper part about the platform joint
+    let t205 = P::load(&prepared[26]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t206 = t82 * neg_mul_add(t151, t196, neg_mul_add(t103, t188, t153));
+    // legs 1, 2, 3: first moment of the upper part about the platform joint
+    let t207 = P::load(&prepared[27]);
+    // legs 4, 5, 6: inertia of both parts, each about its joint, that turns with the direction
+    let t208 = P::load(&prepared[28]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t209 = t82 * t201;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t210 = t150 * w(2.0);
+    let t211 = t89 * t205;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t212 = t89 * t89;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t213 = mul_add(t113, t154, mul_add(t103, t140, t95 * t133));
+    let t214 = t82 * neg_mul_add(t169, t196, neg_mul_add(t113, t188, t170));
+    // constant and copied elements
+    let t215 = P::load(&prepared[29]);
+    // legs 1, 2, 3: inertia of both parts, each about its joint, that turns with the direction
+    let t216 = P::load(&prepared[30]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t217 = t82 * t207;
+    let t218 = mul_add(t113, t160, mul_add(t103, t144, t95 * t135)) * t209;
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t219 = t60 - t215;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t220 = t82 * t82;
+    // constant and copied elements
+    let t221 = P::load(&prepared[31]);
+    let t222 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t223 = t208 * t212;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t224 = mul_add(t113, t214, mul_add(t103, t206, t95 * t204));
+    let t225 = t82 * t216;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t226 = t89 * neg_mul_add(t181, t210, neg_mul_add(t123, t203, t183));
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t227 = t216 * t220;
+    // legs 4, 5, 6: weight of the square in the leg's mass matrix
+    let t228 = mul_add(w(2.0), neg_mul_add(t208, t212, t211), t223);
+    // legs 4, 5, 6: leg inertia alike in all directions at the platform joint
+    let t229 = neg_mul_add(w(2.0), t211, t223);
+    // constant and copied elements
+    let t230 = P::load(&prepared[32]);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t231 = neg_mul_add(t224, t225, mul_sub(t213, t217, t218));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t232 = t89 * neg_mul_add(t187, t210, neg_mul_add(t131, t203, t189));
+    let t233 = t89 * t197;
+    // legs 1, 2, 3: weight of the square in the leg's mass matrix
+    let t234 = mul_add(w(2.0), neg_mul_add(t216, t220, t217), t227);
+    // legs 1, 2, 3: leg inertia alike in all directions at the platform joint
+    let t235 = neg_mul_add(w(2.0), t217, t227);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t236 = neg_mul_add(t140, t217, mul_sub(t144, t209, t206 * t207));
+    let t237 = neg_mul_add(t133, t217, mul_sub(t135, t209, t204 * t207));
+    let t238 = neg_mul_add(t154, t217, mul_sub(t160, t209, t207 * t214));
+    // mass matrix in base coordinates
+    let t239 = t123 * t228;
+    let t240 = t142 * t228;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t241 = mul_add(t142, t190, mul_add(t131, t179, t123 * t172));
+    // constant and copied elements
+    let t242 = P::load(&prepared[33]);
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t243 = mul_sub(t32, t113, t37 * t95);
+    let t244 = mul_sub(t37, t103, t31 * t113);
+    let t245 = mul_sub(t31, t95, t32 * t103);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t246 = mul_add(t142, t193, mul_add(t131, t182, t123 * t174)) * t233;
+    let t247 = t89 * neg_mul_add(t194, t210, neg_mul_add(t142, t203, t195));
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t248 = t64 - t242;
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t249 = mul_sub(t39, t142, t47 * t123);
+    let t250 = mul_sub(t47, t131, t40 * t142);
+    let t251 = mul_sub(t40, t123, t39 * t131);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t252 = neg_mul_add(t119, t230, neg_mul_add(t219, t221, t222)) - t231;
+    // mass matrix in base coordinates
+    let t253 = t95 * t234;
+    let t254 = t113 * t234;
+    let t255 = mul_add(t9, t235, t18 * t229);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t256 = mul_add(t206, t225, t236);
+    let t257 = mul_add(t204, t225, t237);
+    let t258 = mul_add(t214, t225, t238);
+    // constant and copied elements
+    let t259 = P::load(&prepared[34]);
+    let t260 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t261 = mul_add(t142, t247, mul_add(t131, t232, t123 * t226));
+    // mass matrix in base coordinates
+    let t262 = t229 + t235;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t263 = t89 * t208;
+    // mass matrix in base coordinates
+    let t264 = mul_add(t103, t103 * t234, t131 * (t131 * t228));
+    let t265 = t228 * t249;
+    let t266 = mul_add(t12, t235, t19 * t229);
+    let t267 = t228 * t250;
+    let t268 = t228 * t251;
+    let t269 = mul_add(t95, t253, t123 * t239);
+    let t270 = mul_add(t113, t254, t142 * t240);
+    let t271 = mul_add(t103, t253, t131 * t239);
+    let t272 = mul_add(t103, t254, t131 * t240);
+    let t273 = mul_add(t95, t254, t123 * t240);
+    // constant and copied elements
+    let t274 = P::load(&prepared[35]);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t275 = neg_mul_add(t261, t263, mul_sub(t211, t241, t246));
+    // mass matrix in base coordinates
+    let t276 = t234 * t243;
+    let t277 = t234 * t244;
+    let t278 = t234 * t245;
+    let t279 = mul_add(t167, t235, t158 * t229);
+    let t280 = mul_add(t13, t235, t35 * t229);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t281 = neg_mul_add(t179, t211, mul_sub(t182, t233, t205 * t232));
+    let t282 = neg_mul_add(t172, t211, mul_sub(t174, t233, t205 * t226));
+    let t283 = neg_mul_add(t190, t211, mul_sub(t193, t233, t205 * t247));
+    // wrench left at the trial acceleration
+    let t284 = neg_mul_add(t32, t258, mul_add(t37, t257, t243 * t252));
+    let t285 = neg_mul_add(t37, t256, mul_add(t31, t258, t244 * t252));
+    let t286 = neg_mul_add(t31, t257, mul_add(t32, t256, t245 * t252));
+    // mass matrix in base coordinates
+    let t287 = mul_add(t95, t276, t123 * t265);
+    let t288 = mul_add(t95, t277, t123 * t267);
+    let t289 = mul_add(t95, t278, t123 * t268);
+    let t290 = mul_add(t166, t235, t157 * t229);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t291 = neg_mul_add(t150, t274, neg_mul_add(t248, t259, t260)) - t275;
+    // mass matrix in base coordinates
+    let t292 = mul_add(t191, t235, t185 * t229);
+    // inertia less external wrench that the actuators must balance
+    let t293 = t1 * P::splat(external_wrench[1]);
+    // mass matrix in base coordinates
+    let t294 = P::triple([P::lane(t264, 0), P::lane(t269, 0), P::lane(t270, 0)]);
+    let t295 = P::triple([P::lane(t264, 1), P::lane(t269, 1), P::lane(t270, 1)]);
+    let t296 = P::lane(t255, 2) + (P::lane(t255, 1) + P::lane(t255, 0));
+    let t297 = mul_add(t103, t276, t131 * t265);
+    let t298 = mul_add(t103, t277, t131 * t267);
+    let t299 = mul_add(t103, t278, t131 * t268);
+    let t300 = P::lane(t262, 2) + (P::lane(t262, 1) + P::lane(t262, 0));
+    let t301 = P::triple([P::lane(t273, 0), P::lane(t272, 0), P::lane(t271, 0)]);
+    let t302 = P::triple([P::lane(t273, 1), P::lane(t272, 1), P::lane(t271, 1)]);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t303 = mul_add(t232, t263, t281);
+    let t304 = mul_add(t226, t263, t282);
+    let t305 = mul_add(t247, t263, t283);
+    // mass matrix in base coordinates
+    let t306 = mul_add(t168, t235, t159 * t229);
+    // first moments by platform coordinate of the payload's inertia force
+    let t307 = mul_add(t101, P::splat(prepared[38][0]), t94 * P::splat(prepared[37][0]));
+    // inertia less external wrench that the actuators must balance
+    let t308 = mul_add(t2, P::splat(external_wrench[0]), t293);
+    // mass matrix in base coordinates
+    let t309 = P::triple([P::lane(t264, 2), P::lane(t269, 2), P::lane(t270, 2)]);
+    let t310 = mul_add(t192, t235, t186 * t229);
+    let t311 = P::lane(t266, 2) + (P::lane(t266, 1) + P::lane(t266, 0));
+    let t312 = prepared[36][1] + t296;
+    let t313 = P::triple([P::lane(t273, 2), P::lane(t272, 2), P::lane(t271, 2)]);
+    let t314 = t301 + t302 + t313;
+    let t315 = mul_add(t113, t276, t142 * t265);
+    let t316 = mul_add(t113, t277, t142 * t267);
+    let t317 = mul_add(t113, t278, t142 * t268);
+    // wrench left at the trial acceleration
+    let t318 = mul_add(t47, t304, mul_add(t249, t291, t284));
+    let t319 = mul_add(t40, t305, mul_add(t250, t291, t285));
+    let t320 = mul_add(t39, t303, mul_add(t251, t291, t286));
+    // mass matrix in base coordinates
+    let t321 = P::triple([P::lane(t287, 0), P::lane(t288, 0), P::lane(t289, 0)]);
+    let t322 = P::triple([P::lane(t287, 1), P::lane(t288, 1), P::lane(t289, 1)]);
+    let t323 = P::lane(t279, 2) + (P::lane(t279, 1) + P::lane(t279, 0));
+    let t324 = prepared[36][0] + t311;
+    // first moments by platform coordinate of the payload's inertia force
+    let t325 = mul_add(t112, P::splat(prepared[37][2]), t307);
+    // inertia less external wrench that the actuators must balance
+    let t326 = mul_add(t5, P::splat(external_wrench[2]), t308);
+    // mass matrix in base coordinates
+    let t327 = t294 + t295 + t309 + P::splat(prepared[40][0] + t300);
+    let t328 = mul_add(t202, t235, t198 * t229);
+    let t329 = P::lane(t280, 2) + (P::lane(t280, 1) + P::lane(t280, 0));
+    let t330 = P::triple([P::lane(t297, 0), P::lane(t298, 0), P::lane(t299, 0)]);
+    let t331 = P::triple([P::lane(t297, 1), P::lane(t298, 1), P::lane(t299, 1)]);
+    let t332 = P::triple([P::lane(t287, 2), P::lane(t288, 2), P::lane(t289, 2)]);
+    let t333 = P::lane(t290, 2) + (P::lane(t290, 1) + P::lane(t290, 0));
+    let t334 = prepared[37][0] + t323;
+    let t335 = P::mul_add(P::lane(t15, 2), t324, P::lane(t14, 2) * t312);
+    let t336 = P::mul_add(P::lane(t15, 0), t324, P::lane(t14, 0) * t312);
+    // wrench left at the trial acceleration
+    let t337 = neg_mul_add(t39, t305, t318);
+    let t338 = neg_mul_add(t47, t303, t319);
+    let t339 = neg_mul_add(t40, t304, t320);
+    // mass matrix in base coordinates
+    let t340 = t321 + t322 + t332;
+    let t341 = P::lane(t292, 2) + (P::lane(t292, 1) + P::lane(t292, 0));
+    let t342 = prepared[36][2] + t329;
+    // first moments by platform coordinate of the payload's inertia force
+    let t343 = mul_add(t101, P::splat(prepared[37][0]), t94 * P::splat(prepared[38][1]));
+    // wrench left at the trial acceleration
+    let t344 = t303 - mul_sub(t131, t291, neg_mul_add(t103, t252, t256));
+    let t345 = t304 - mul_sub(t123, t291, neg_mul_add(t95, t252, t257));
+    let t346 = t305 - mul_sub(t142, t291, neg_mul_add(t113, t252, t258));
+    // mass matrix in base coordinates
+    let t347 = P::triple([P::lane(t297, 2), P::lane(t298, 2), P::lane(t299, 2)]);
+    let t348 = mul_add(t243, t276, t249 * t265);
+    let t349 = mul_add(t244, t277, t250 * t267);
+    let t350 = mul_add(t245, t278, t251 * t268);
+    let t351 = prepared[38][0] + t333;
+    let t352 = P::triple([P::lane(t314, 2), P::lane(t314, 2), P::lane(t314, 0)]);
+    let t353 = P::triple([P::lane(t314, 1), P::lane(t314, 0), P::lane(t314, 1)]);
+    let t354 = P::mul_add(P::lane(t15, 1), t324, P::lane(t14, 1) * t312);
+    let t355 = t330 + t331 + t347;
+    let t356 = P::triple([P::lane(t315, 0), P::lane(t316, 0), P::lane(t317, 0)]);
+    let t357 = P::triple([P::lane(t315, 1), P::lane(t316, 1), P::lane(t317, 1)]);
+    let t358 = mul_add(t243, t277, t249 * t267);
+    let t359 = mul_add(t243, t278, t249 * t268);
+    let t360 = mul_add(t244, t278, t250 * t268);
+    let t361 = prepared[38][1] + t341;
+    let t362 = P::lane(t306, 2) + (P::lane(t306, 1) + P::lane(t306, 0));
+    // acceleration that removes the residual wrench
+    let t363 = mul_sub(t352, t353, t314 * t327);
+    // mass matrix in base coordinates
+    let t364 = P::mul_add(P::lane(t17, 2), t342, t335);
+    let t365 = P::mul_add(P::lane(t17, 0), t342, t336);
+    let t366 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
+    // first moments by platform coordinate of the payload's inertia force
+    let t367 = mul_add(t112, P::splat(prepared[37][1]), t343);
+    // inertia less external wrench that the actuators must balance
+    let t368 = P::triple([P::lane(t326, 1), P::lane(t326, 2), P::lane(t326, 0)]);
+    // first moments by platform coordinate of the payload's inertia force
+    let t369 = P::triple([P::lane(t325, 1), P::lane(t325, 2), P::lane(t325, 0)]);
+    // mass matrix in base coordinates
+    let t370 = mul_add(t15, P::splat(t351), t14 * P::splat(t334));
+    // inertia less external wrench that the actuators must balance
+    let t371 = neg_mul_add(P::splat(parameters.payload_com[0]), t368, t369);
+    // mass matrix in base coordinates
+    let t372 = P::triple([P::lane(t315, 2), P::lane(t316, 2), P::lane(t317, 2)]);
+    let t373 = prepared[37][2] + t362;
+    let t374 = P::mul_add(P::lane(t17, 1), t342, t354);
+    let t375 = t356 + t357 + t372;
+    let t376 = prepared[37][1] + t366;
+    let t377 = P::triple([P::lane(t327, 1), P::lane(t327, 0), P::lane(t327, 1)]);
+    let t378 = P::triple([P::lane(t327, 2), P::lane(t327, 2), P::lane(t327, 0)]);
+    let t379 = P::lane(t340, 0) - t364;
+    // wrench left at the trial acceleration
+    let t380 = P::triple([P::lane(t344, 0), P::lane(t345, 0), P::lane(t346, 0)]);
+    let t381 = P::triple([P::lane(t344, 1), P::lane(t345, 1), P::lane(t346, 1)]);
+    let t382 = P::triple([P::lane(t337, 0), P::lane(t338, 0), P::lane(t339, 0)]);
+    let t383 = P::triple([P::lane(t337, 1), P::lane(t338, 1), P::lane(t339, 1)]);
+    // mass matrix in base coordinates
+    let t384 = P::lane(t328, 2) + (P::lane(t328, 1) + P::lane(t328, 0));
+    // acceleration that removes the residual wrench
+    let t385 = mul_sub(t377, t378, t314 * t314);
+    // first moments by platform coordinate of the payload's inertia force
+    let t386 = mul_add(t101, P::splat(prepared[37][2]), t94 * P::splat(prepared[37][1]));
+    // mass matrix in base coordinates
+    let t387 = mul_add(t17, P::splat(t373), t370);
+    let t388 = mul_add(t15, P::splat(t334), t14 * P::splat(t361));
+    let t389 = P::triple([P::lane(t348, 0), P::lane(t349, 0), P::lane(t350, 0)]);
+    let t390 = P::triple([P::lane(t348, 1), P::lane(t349, 1), P::lane(t350, 1)]);
+    let t391 = t364 + P::lane(t355, 1);
+    let t392 = P::triple([t379, P::lane(t340, 1), t365 + P::lane(t340, 2)]);
+    // wrench left at the trial acceleration
+    let t393 = P::triple([P::lane(t344, 2), P::lane(t345, 2), P::lane(t346, 2)]);
+    let t394 = P::triple([P::lane(t337, 2), P::lane(t338, 2), P::lane(t339, 2)]);
+    // mass matrix in base coordinates
+    let t395 = prepared[38][2] + t384;
+    let t396 = P::triple([P::lane(t360, 0), P::lane(t359, 0), P::lane(t358, 0)]);
+    let t397 = P::triple([P::lane(t360, 1), P::lane(t359, 1), P::lane(t358, 1)]);
+    // acceleration that removes the residual wrench
+    let t398 = P::splat(P::lane(t363, 2)) * t392;
+    // first moments by platform coordinate of the payload's inertia force
+    let t399 = mul_add(t112, P::splat(prepared[38][2]), t386);
+    let t400 = P::triple([P::lane(t367, 1), P::lane(t367, 2), P::lane(t367, 0)]);
+    // mass matrix in base coordinates
+    let t401 = P::triple([P::lane(t348, 2), P::lane(t349, 2), P::lane(t350, 2)]);
+    let t402 = mul_add(t17, P::splat(t376), t388);
+    let t403 = mul_add(t15, P::splat(t373), t14 * P::splat(t376));
+    let t404 = P::triple([P::lane(t355, 0), t391, P::lane(t355, 2) - t374]);
+    // inertia less external wrench that the actuators must balance
+    let t405 = neg_mul_add(P::splat(parameters.payload_com[1]), t368, t400);
+    let t406 = P::triple([P::lane(t371, 1), P::lane(t371, 2), P::lane(t371, 0)]);
+    // mass matrix in base coordinates
+    let t407 = P::triple([P::lane(t360, 2), P::lane(t359, 2), P::lane(t358, 2)]);
+    // acceleration that removes the residual wrench
+    let t408 = mul_add(P::splat(P::lane(t385, 0)), t404, t398);
+    // mass matrix in base coordinates
+    let t409 = t374 + P::lane(t375, 0);
+    let t410 = P::lane(t375, 1) - t365;
+    // wrench left at the trial acceleration
+    let t411 = mul_add(t101, P::splat(prepared[36][0]), t380 + t381 + t393);
+    let t412 = neg_mul_add(t71, t406, t382 + t383 + t394);
+    // mass matrix in base coordinates
+    let t413 = t389 + t390 + t401 + P::splat(t351 + t361 + t395);
+    let t414 = mul_add(t17, P::splat(t395), t403);
+    // rotation of the platform seen from the base
+    let t415 = P::triple([P::lane(t15, 2), P::lane(t15, 2), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t416 = P::triple([P::lane(t387, 1), P::lane(t387, 0), P::lane(t387, 0)]);
+    let t417 = P::triple([t409, t410, P::lane(t375, 2)]);
+    // rotation of the platform seen from the base
+    let t418 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t419 = neg_mul_add(t415, t416, t396 + t397 + t407);
+    // acceleration that removes the residual wrench
+    let t420 = mul_add(P::splat(P::lane(t363, 1)), t417, t408);
+    let t421 = t392 * P::splat(P::lane(t385, 1));
+    // wrench left at the trial acceleration
+    let t422 = mul_add(t94, P::splat(prepared[36][1]), t411);
+    // acceleration that removes the residual wrench
+    let t423 = P::lane(t314, 2) * P::lane(t363, 2);
+    // first moments by platform coordinate of the payload's inertia force
+    let t424 = P::triple([P::lane(t399, 1), P::lane(t399, 2), P::lane(t399, 0)]);
+    // rotation of the platform seen from the base
+    let t425 = P::triple([P::lane(t14, 2), P::lane(t14, 2), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t426 = P::triple([P::lane(t402, 1), P::lane(t402, 0), P::lane(t402, 0)]);
+    // acceleration that removes the residual wrench
+    let t427 = mul_add(P::splat(P::lane(t363, 2)), t404, t421);
+    // inertia less external wrench that the actuators must balance
+    let t428 = neg_mul_add(P::splat(parameters.payload_com[2]), t368, t424);
+    let t429 = P::triple([P::lane(t405, 1), P::lane(t405, 2), P::lane(t405, 0)]);
+    // acceleration that removes the residual wrench
+    let t430 = t392 * P::splat(P::lane(t363, 0));
+    let t431 = P::mul_add(P::lane(t327, 0), P::lane(t385, 0), t423);
+    // wrench left at the trial acceleration
+    let t432 = neg_mul_add(t63, t429, mul_add(t371, t418, t412));
+    // mass matrix in base coordinates
+    let t433 = neg_mul_add(t14, t402, neg_mul_add(t15, t387, t413));
+    // rotation of the platform seen from the base
+    let t434 = P::triple([P::lane(t17, 2), P::lane(t17, 2), P::lane(t17, 1)]);
+    // acceleration that removes the residual wrench
+    let t435 = mul_add(t417, P::splat(P::lane(t363, 0)), t427);
+    // mass matrix in base coordinates
+    let t436 = P::triple([P::lane(t414, 1), P::lane(t414, 0), P::lane(t414, 0)]);
+    // acceleration that removes the residual wrench
+    let t437 = mul_add(t404, P::splat(P::lane(t363, 1)), t430);
+    // rotation of the platform seen from the base
+    let t438 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix in base coordinates
+    let t439 = neg_mul_add(t434, t436, neg_mul_add(t425, t426, t419));
+    // acceleration that removes the residual wrench
+    let t440 = P::mul_add(P::lane(t314, 1), P::lane(t363, 1), t431);
+    // mass matrix in base coordinates
+    let t441 = P::triple([t391, P::lane(t355, 0), P::lane(t355, 0)]);
+    // acceleration that removes the residual wrench
+    let t442 = P::triple([P::lane(t420, 2), P::lane(t420, 2), P::lane(t420, 1)]);
+    // wrench left at the trial acceleration
+    let t443 = t326 - mul_add(t112, P::splat(prepared[36][2]), t422);
+    // mass matrix in base coordinates
+    let t444 = neg_mul_add(t17, t414, t433);
+    // acceleration that removes the residual wrench
+    let t445 = mul_add(t417, P::splat(P::lane(t385, 2)), t437);
+    // inertia less external wrench that the actuators must balance
+    let t446 = P::triple([P::lane(t428, 1), P::lane(t428, 2), P::lane(t428, 0)]);
+    // acceleration that removes the residual wrench
+    let t447 = mul_sub(t439, P::splat(t440), t441 * t442);
+    // wrench left at the trial acceleration
+    let t448 = neg_mul_add(t76, t446, mul_add(t405, t438, t432));
+    // acceleration that removes the residual wrench
+    let t449 = mul_sub(P::splat(t440), t444, t404 * t420);
+    // mass matrix in base coordinates
+    let t450 = P::triple([P::lane(t340, 1), t379, t379]);
+    // acceleration that removes the residual wrench
+    let t451 = P::triple([P::lane(t435, 2), P::lane(t435, 2), P::lane(t435, 1)]);
+    // rotation of the platform seen from the base
+    let t452 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // wrench left at the trial acceleration
+    let t453 = P::triple([P::lane(t443, 1), P::lane(t443, 2), P::lane(t443, 0)]);
+    // acceleration that removes the residual wrench
+    let t454 = P::triple([P::lane(t363, 2), P::lane(t363, 0), P::lane(t363, 1)]);
+    // mass matrix in base coordinates
+    let t455 = P::triple([t410, t409, t409]);
+    // acceleration that removes the residual wrench
+    let t456 = P::triple([P::lane(t445, 2), P::lane(t445, 2), P::lane(t445, 1)]);
+    // wrench left at the trial acceleration
+    let t457 = P::triple([P::lane(t443, 2), P::lane(t443, 0), P::lane(t443, 1)]);
+    // acceleration that removes the residual wrench
+    let t458 = P::triple([P::lane(t363, 1), P::lane(t363, 2), P::lane(t363, 0)]);
+    let t459 = neg_mul_add(t455, t456, neg_mul_add(t450, t451, t447));
+    // wrench left at the trial acceleration
+    let t460 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t428, t452, t448));
+    // acceleration that removes the residual wrench
+    let t461 = neg_mul_add(t417, t445, neg_mul_add(t392, t435, t449));
+    let t462 = mul_add(t457, t458, mul_add(t385, t443, t453 * t454));
+    // wrench left at the trial acceleration
+    let t463 = mul_add(t1, P::splat(external_wrench[4]), t460);
+    // acceleration that removes the residual wrench
+    let t464 = P::triple([P::lane(t459, 1), P::lane(t459, 0), P::lane(t459, 1)]);
+    let t465 = P::triple([P::lane(t459, 2), P::lane(t459, 2), P::lane(t459, 0)]);
+    // wrench left at the trial acceleration
+    let t466 = mul_add(t5, P::splat(external_wrench[5]), t463);
+    // acceleration that removes the residual wrench
+    let t467 = mul_sub(t464, t465, t459 * t461);
+    let t468 = P::triple([P::lane(t461, 1), P::lane(t461, 0), P::lane(t461, 1)]);
+    let t469 = mul_sub(P::splat(t440), t466, t404 * P::splat(P::lane(t462, 0)));
+    let t470 = P::triple([P::lane(t461, 2), P::lane(t461, 2), P::lane(t461, 0)]);
+    let t471 = mul_sub(t468, t470, t459 * t459);
+    let t472 = P::triple([P::lane(t420, 0), P::lane(t435, 0), P::lane(t445, 0)]);
+    let t473 = P::triple([P::lane(t420, 1), P::lane(t435, 1), P::lane(t445, 1)]);
+    let t474 = neg_mul_add(t392, P::splat(P::lane(t462, 1)), t469);
+    let t475 = P::triple([P::lane(t420, 2), P::lane(t435, 2), P::lane(t445, 2)]);
+    let t476 = P::lane(t459, 2) * P::lane(t467, 2);
+    let t477 = P::triple([P::lane(t467, 2), P::lane(t467, 0), P::lane(t467, 1)]);
+    let t478 = P::triple([P::lane(t467, 1), P::lane(t467, 2), P::lane(t467, 0)]);
+    // constant and copied elements
+    let t479 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t480 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    // acceleration that removes the residual wrench
+    let t481 = P::mul_add(P::lane(t461, 0), P::lane(t471, 0), t476);
+    let t482 = neg_mul_add(t417, P::splat(P::lane(t462, 2)), t474);
+    // constant and copied elements
+    let t483 = P::load(&prepared[39]);
+    let t484 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+    // acceleration that removes the residual wrench
+    let t485 = c(1.0) / P::mul_add(P::lane(t459, 1), P::lane(t467, 1), t481);
+    let t486 = P::triple([P::lane(t482, 1), P::lane(t482, 2), P::lane(t482, 0)]);
+    let t487 = P::triple([P::lane(t482, 2), P::lane(t482, 0), P::lane(t482, 1)]);
+    let t488 = mul_add(t478, t487, mul_add(t471, t482, t477 * t486));
+    let t489 = P::splat(t485) * t488;
+    let t490 = neg_mul_add(t472, P::splat(P::lane(t489, 0)), t462);
+    // platform acceleration v_p'
+    let t491 = t479 * P::splat(P::lane(t489, 1));
+    // acceleration that removes the residual wrench
+    let t492 = neg_mul_add(t473, P::splat(P::lane(t489, 1)), t490);
+    // platform acceleration v_p'
+    let t493 = mul_add(t480, P::splat(P::lane(t489, 0)), t491);
+    // acceleration that removes the residual wrench
+    let t494 = neg_mul_add(t475, P::splat(P::lane(t489, 2)), t492);
+    // platform acceleration v_p'
+    let t495 = mul_add(t484, P::splat(P::lane(t489, 2)), t493);
+    // acceleration that removes the residual wrench
+    let t496 = P::splat(c(1.0) / t440) * t494;
+    // platform acceleration v_p'
+    let t497 = t479 * P::splat(P::lane(t496, 1));
+    let t498 = mul_add(t480, P::splat(P::lane(t496, 0)), t497);
+    let t499 = mul_add(t484, P::splat(P::lane(t496, 2)), t483) + t498;
+    forward_dynamics[0] = P::lane(t499, 0);
+    forward_dynamics[1] = P::lane(t499, 1);
+    forward_dynamics[2] = P::lane(t499, 2);
+    forward_dynamics[3] = P::lane(t495, 0);
+    forward_dynamics[4] = P::lane(t495, 1);
+    forward_dynamics[5] = P::lane(t495, 2);
 }

@@ -1,4 +1,4 @@
-//! Linear systems in lanes: [`solve::solve_general`](crate::solve::solve_general) with pivots chosen per lane.
+//! Linear systems in lanes: [`solve::solve_general`](crate::solve::solve_general) with pivots chosen per lane, and attempts.
 
 use super::Lanes;
 
@@ -37,6 +37,34 @@ pub(super) fn by_elimination<T: Lanes, const N: usize>(
         right[i] = sum * reciprocals[i];
     }
     right
+}
+
+/// [`Scalar::unless_wrong`](crate::float::Scalar::unless_wrong), `most` the square of the largest residual in relation to the
+/// terms.
+#[inline(always)]
+pub(super) fn unless_wrong<T: Lanes, const N: usize>(
+    attempt: &[T; N],
+    residuals: &[T; N],
+    squares: &[T; N],
+    most: T,
+    matrix: &[[T; N]; N],
+    right_hand_side: &[T; N],
+) -> [T; N] {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let mut right = one;
+    for row in 0..N {
+        let small = (residuals[row] * residuals[row]).less_than(most * squares[row]);
+        right = T::select(small, right, zero);
+    }
+    let right = zero.less_than(right);
+    if T::bits(right).count_ones() as usize == T::COUNT {
+        return *attempt;
+    }
+    let mut solution = by_elimination(matrix, right_hand_side);
+    for row in 0..N {
+        solution[row] = T::select(right, attempt[row], solution[row]);
+    }
+    solution
 }
 
 /// As [`f64::max`]: the other one where one is NaN.

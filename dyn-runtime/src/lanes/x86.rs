@@ -5,6 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Kernel, Lanes, Number, filled, solve};
 use crate::float::Scalar;
+use crate::solve::MOST_RESIDUAL;
 use crate::x86::operators;
 
 /// Runs a kernel with lanes of AVX2 and FMA.
@@ -74,6 +75,18 @@ macro_rules! lanes {
             #[inline(always)]
             fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
                 solve::by_elimination(matrix, right_hand_side)
+            }
+
+            #[inline(always)]
+            fn unless_wrong<const N: usize>(
+                attempt: &[Self; N],
+                residuals: &[Self; N],
+                squares: &[Self; N],
+                matrix: &[[Self; N]; N],
+                right_hand_side: &[Self; N],
+            ) -> [Self; N] {
+                const MOST: $number = MOST_RESIDUAL as $number * $number::EPSILON;
+                solve::unless_wrong(attempt, residuals, squares, Self::splat(MOST * MOST), matrix, right_hand_side)
             }
         }
 

@@ -47,6 +47,12 @@ pub trait Triple: Scalar {
     /// The three numbers.
     fn triple(lanes: [Self::Lane; 3]) -> Self;
 
+    /// The first three of these numbers, the fourth of which is the third again.
+    #[inline(always)]
+    fn load([x, y, z, _]: &[Self::Lane; 4]) -> Self {
+        Self::triple([*x, *y, *z])
+    }
+
     /// The same number three times.
     fn splat(number: Self::Lane) -> Self;
 
@@ -97,15 +103,22 @@ pub fn in_registers() -> bool {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! single_state {
-    ($in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {{
+    ($in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {
+        $crate::single_state!($in_lanes, $flat; $($input: $input_type),*; only in lanes; $($output: $output_type),*)
+    };
+    (
+        $in_lanes:ident, $flat:ident; $($input:ident: $input_type:ty),*;
+        only in lanes $($extra:ident: $extra_type:ty),*; $($output:ident: $output_type:ty),*
+    ) => {{
         struct Arguments<'a> {
             $($input: &'a $input_type,)*
+            $($extra: &'a $extra_type,)*
             $($output: &'a mut $output_type,)*
         }
         impl $crate::triple::Call<f64> for Arguments<'_> {
             #[inline(always)]
             fn in_lanes<P: $crate::triple::Triple<Lane = f64>>(self) {
-                self::$in_lanes::<P>($(self.$input,)* $(self.$output),*);
+                self::$in_lanes::<P>($(self.$input,)* $(self.$extra,)* $(self.$output),*);
             }
             // Where it is called, like the method: a library that nobody calls it in need not compile it.
             #[inline]
@@ -113,7 +126,7 @@ macro_rules! single_state {
                 self::$flat($(self.$input,)* $(self.$output),*);
             }
         }
-        $crate::triple::run(Arguments { $($input,)* $($output),* });
+        $crate::triple::run(Arguments { $($input,)* $($extra,)* $($output),* });
     }};
 }
 
@@ -122,6 +135,23 @@ fn lane_after_lane<P: Triple, const N: usize>(matrix: &[[P; N]; N], right_hand_s
     let solutions = [0, 1, 2].map(|lane| {
         let matrix = matrix.map(|row| row.map(|entry| entry.lane(lane)));
         P::Lane::solve_general(&matrix, &right_hand_side.map(|entry| entry.lane(lane)))
+    });
+    core::array::from_fn(|row| P::triple(solutions.map(|solution| solution[row])))
+}
+
+/// [`Scalar::unless_wrong`] for each lane by itself.
+fn lane_unless_wrong<P: Triple, const N: usize>(
+    attempt: &[P; N],
+    residuals: &[P; N],
+    squares: &[P; N],
+    matrix: &[[P; N]; N],
+    right_hand_side: &[P; N],
+) -> [P; N] {
+    let solutions = [0, 1, 2].map(|lane| {
+        let matrix = matrix.map(|row| row.map(|entry| entry.lane(lane)));
+        let [attempt, residuals, squares, right_hand_side] = [attempt, residuals, squares, right_hand_side]
+            .map(|numbers| numbers.map(|number| number.lane(lane)));
+        P::Lane::unless_wrong(&attempt, &residuals, &squares, &matrix, &right_hand_side)
     });
     core::array::from_fn(|row| P::triple(solutions.map(|solution| solution[row])))
 }

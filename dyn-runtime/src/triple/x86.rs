@@ -8,7 +8,7 @@
 
 use core::arch::x86_64::{
     __m256d, _mm_cvtsd_f64, _mm_fmadd_sd, _mm_set_sd, _mm256_add_pd, _mm256_div_pd, _mm256_fmadd_pd,
-    _mm256_mul_pd, _mm256_set_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_sub_pd,
+    _mm256_loadu_pd, _mm256_mul_pd, _mm256_set_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_sub_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -75,6 +75,16 @@ impl Scalar for Register {
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         super::lane_after_lane(matrix, right_hand_side)
     }
+
+    fn unless_wrong<const N: usize>(
+        attempt: &[Self; N],
+        residuals: &[Self; N],
+        squares: &[Self; N],
+        matrix: &[[Self; N]; N],
+        right_hand_side: &[Self; N],
+    ) -> [Self; N] {
+        super::lane_unless_wrong(attempt, residuals, squares, matrix, right_hand_side)
+    }
 }
 
 impl Triple for Register {
@@ -84,6 +94,12 @@ impl Triple for Register {
     fn triple([x, y, z]: [f64; 3]) -> Self {
         // SAFETY: triples are made within `in_register` only.
         Register(unsafe { _mm256_set_pd(z, z, y, x) })
+    }
+
+    #[inline(always)]
+    fn load(lanes: &[f64; 4]) -> Self {
+        // SAFETY: four numbers are read, wherever they are; triples are made within `in_register` only.
+        Register(unsafe { _mm256_loadu_pd(lanes.as_ptr()) })
     }
 
     #[inline(always)]

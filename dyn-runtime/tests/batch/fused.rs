@@ -61,4 +61,17 @@ impl<S: FusedMultiplyAdd> Scalar for Fused<S> {
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         S::solve_general(&matrix.map(|row| row.map(|x| x.0)), &right_hand_side.map(|x| x.0)).map(Fused)
     }
+
+    fn unless_wrong<const N: usize>(
+        attempt: &[Self; N],
+        residuals: &[Self; N],
+        squares: &[Self; N],
+        matrix: &[[Self; N]; N],
+        right_hand_side: &[Self; N],
+    ) -> [Self; N] {
+        let [attempt, residuals, squares, right_hand_side] =
+            [attempt, residuals, squares, right_hand_side].map(|numbers| numbers.map(|x| x.0));
+        let matrix = matrix.map(|row| row.map(|x| x.0));
+        S::unless_wrong(&attempt, &residuals, &squares, &matrix, &right_hand_side).map(Fused)
+    }
 }

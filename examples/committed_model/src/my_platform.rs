@@ -23,7 +23,9 @@
 #[allow(unused_imports)]
 use ::dyn_runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
-use ::dyn_runtime::solve::solve_general;
+use ::dyn_runtime::solve::{
+    solve_after_attempt, solve_after_attempt_in_lanes, solve_general,
+};
 #[allow(unused_imports)]
 use ::dyn_runtime::triple::Triple;
 

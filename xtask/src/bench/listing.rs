@@ -69,7 +69,8 @@ fn implementation(symbol: &str) -> Option<(usize, &'static str)> {
         _ if symbol.starts_with("_ZN13dyn_reference") => "reference",
         _ if !symbol.contains("generated..kernels..") || symbol.contains("f32") => return None,
         _ if symbol.contains("..flat..Flat$LT$") => "generated",
-        _ if symbol.contains("..uhp..Uhp$") => "generated_runtime",
+        _ if symbol.contains("..uhp..PreparedUhp$") => "generated_runtime",
+        _ if symbol.contains("dyn_benches..payload..") => "generated_payload",
         _ => "generated_lanes",
     };
     Some((function, implementation))
@@ -124,7 +125,8 @@ mod tests {
         let kernel = "$u20$as$u20$dyn_runtime..generated..kernels..Matrices$GT$8matrices17h028ab976b4cbb4a1E";
         for (model, expected) in [
             ("_ZN103_$LT$dyn_runtime..generated..uhp_2016..Uhp2016", "generated_lanes"),
-            ("_ZN94_$LT$dyn_runtime..generated..uhp..Uhp", "generated_runtime"),
+            ("_ZN102_$LT$dyn_runtime..generated..uhp..PreparedUhp", "generated_runtime"),
+            ("_ZN98_$LT$dyn_benches..payload..generated..Uhp2016", "generated_payload"),
             (
                 "_ZN94_$LT$dyn_benches..flat..Flat$LT$dyn_runtime..generated..uhp_2016..Uhp2016$GT$",
                 "generated",

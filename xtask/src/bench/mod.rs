@@ -33,6 +33,9 @@ pub struct Options {
 
 /// The paper's platform, from the root.
 const DEFAULT_PLATFORM: &str = "platforms/uhp_2016.toml";
+/// The model with some numbers at run time, in the folder of a platform, and its functions.
+const PAYLOAD: &str = "payload.rs";
+const COMPARED: &str = "inverse_dynamics,forward_dynamics,matrices";
 /// States at which peers are compared with dyn-gen, and at which rounding errors are judged.
 const STATES: &str = "16";
 /// Callgrind of today's distributions stops at AVX-512, so counts are taken with AVX2.
@@ -110,6 +113,7 @@ impl Bench {
         let mut cargo = workspace::cargo();
         cargo.env("CARGO_TARGET_DIR", self.target.with_file_name(processor));
         cargo.env("RUSTFLAGS", format!("-C target-cpu={processor}"));
+        cargo.env("DYN_BENCHES_PAYLOAD", self.folder.join(PAYLOAD));
         if self.given {
             cargo.env("DYN_BENCHES_PLATFORM", &self.platform).env("DYN_BENCHES_MODEL", self.model());
         }
@@ -133,8 +137,10 @@ impl Bench {
         };
         let output = |name: &str| self.folder.join(name).to_string_lossy().into_owned();
         let platform = self.platform.to_string_lossy().into_owned();
-        let (model, vectors) = (output("model.rs"), output("vectors.json"));
+        let (model, payload, vectors) = (output("model.rs"), output(PAYLOAD), output("vectors.json"));
         succeed(&mut dyn_gen(&["generate", &platform, "--scalar", "f64,f32", "-o", &model]))?;
+        let at_run_time = ["--functions", COMPARED, "--runtime", "payload,gravity,legs.k_e", "-o", &payload];
+        succeed(dyn_gen(&["generate", &platform]).args(at_run_time))?;
         succeed(&mut dyn_gen(&["vectors", &platform, "-n", STATES, "-o", &vectors]))?;
         let mut explain = dyn_gen(&["explain", &platform, "--json"]);
         let explained =
