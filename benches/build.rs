@@ -54,10 +54,10 @@ fn payload() -> String {
     match given("DYN_BENCHES_PAYLOAD") {
         Some(model) => {
             let module = module_of(&model, "Payload");
-            format!("{module}pub fn payload() -> Option<Payload> {{\n    Some(Payload::default())\n}}\n")
+            format!("{module}/// That model.\npub fn payload() -> Option<Payload> {{\n    Some(Payload::default())\n}}\n")
         }
         // A type is needed, whichever.
-        None => "pub use dyn_runtime::models::Uhp as Payload;\npub fn payload() -> Option<Payload> {\n    None\n}\n".into(),
+        None => "pub use dyn_runtime::models::Uhp as Payload;\n/// None.\npub fn payload() -> Option<Payload> {\n    None\n}\n".into(),
     }
 }
 

@@ -42,6 +42,7 @@ fn printed(limits: Option<Limits>) -> String {
         signatures: &[],
         functions: &[],
         in_lanes: &[],
+        prepared: &[],
     };
     let file = model_file(&header, &model).expect("a printable model");
     let Some((_, from_functions)) = file.split_once("impl TestModel {") else { return String::new() };
