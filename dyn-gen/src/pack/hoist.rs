@@ -1,7 +1,6 @@
 //! What follows from parameters at run time alone, taken out of a function in lanes: computed once, when they are set.
 //!
-//! In a model with all numbers at run time an eighth of the operations is such, and every value of three legs in lanes is
-//! gathered from places in memory that are apart.
+//! Besides, every parameter of three legs in lanes is gathered from places in memory that are apart.
 
 use std::collections::BTreeMap;
 
