@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use dyn_runtime::kernels::{self, InverseDynamics as _};
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
-use dyn_runtime::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
+use dyn_runtime::nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use dyn_runtime::{
     Acceleration, BaseMotion, Error, Hexapod, MIN_RECIPROCAL_CONDITION, MIN_ROD_ALIGNMENT, PlatformState,
     Pose, Twist, Wrench, jacobian_reciprocal_condition,
@@ -197,6 +197,23 @@ fn a_prepared_model_is_the_model() {
         call(back.to_vector(), same_back.to_vector());
         let masses = model.mass_matrix_p(&base, &platform).unwrap();
         assert_eq!(masses, prepared.mass_matrix_p(&base, &platform).unwrap());
+        let near =
+            |a: Matrix6<f64>, b: Matrix6<f64>| assert!((a - b).amax() <= 1e-11 * a.amax(), "{a} and {b}");
+        let (one, other) = (
+            model.control(&base, &platform, &acceleration, &wrench).unwrap(),
+            prepared.control(&base, &platform, &acceleration, &wrench).unwrap(),
+        );
+        near(one.jacobian_dp, other.jacobian_dp);
+        near(one.mass_matrix_p, other.mass_matrix_p);
+        call(one.total_bias, other.total_bias);
+        call(one.actuator_length_m, other.actuator_length_m);
+        call(one.inverse_dynamics_n, other.inverse_dynamics_n);
+        let (one, other) =
+            (model.matrices(&base, &platform).unwrap(), prepared.matrices(&base, &platform).unwrap());
+        near(one.coriolis_matrix_p, other.coriolis_matrix_p);
+        near(one.coriolis_matrix_b, other.coriolis_matrix_b);
+        near(one.mass_matrix_b, other.mass_matrix_b);
+        near(one.jacobian_db, other.jacobian_db);
     }
     assert_eq!(prepared.model.model(), &Uhp { parameters: table_1() });
 }

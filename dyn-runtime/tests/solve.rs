@@ -115,6 +115,9 @@ fn attempts_without_numbers_or_with_too_large_ones_are_refused() {
         let attempt = [wrong, 1.0, 2.0, 3.0, 4.0, 5.0];
         assert_eq!(solve_after_attempt(&attempt, &matrix, &right_hand_side), right_hand_side);
     }
+    // Squares of the terms overflow, that of the residual does not.
+    let large = [1e155, 1.0, 2.0, 3.0, 4.0, 5.0];
+    assert_eq!(solve_after_attempt(&[0.95e155, 1.0, 2.0, 3.0, 4.0, 5.0], &matrix, &large), large);
     assert_eq!(solve_after_attempt(&[0.0; 6], &matrix, &[0.0; 6]), [0.0; 6]);
     let singular = [[1.0; 6]; 6];
     assert!(solve_after_attempt(&[f64::NAN; 6], &singular, &right_hand_side).iter().any(|x| !x.is_finite()));

@@ -154,7 +154,7 @@ pub fn is_solved_by(attempt: &[f64], matrix: &[f64], b: &[f64]) -> bool {
         let terms = row.iter().zip(attempt).map(|(a, x)| a * x);
         let (sum, squares) =
             terms.fold((0.0, 0.0), |(sum, squares), term| (sum + term, squares + term * term));
-        (sum - b) * (sum - b) < MOST_RESIDUAL * MOST_RESIDUAL * squares
+        squares.is_finite() && (sum - b) * (sum - b) < MOST_RESIDUAL * MOST_RESIDUAL * squares
     };
     !attempt.is_empty() && matrix.chunks(attempt.len()).zip(b).all(is_satisfied)
 }

@@ -13,8 +13,8 @@ pub(crate) const MOST_RESIDUAL: f64 = 32.0;
 
 /// Solution of `matrix * x = right_hand_side`: `attempt` where it is one, else [`solve_general`](super::solve_general)'s.
 ///
-/// It is one if in each row `|a . x - b| < 32 eps sqrt(sum (a_j x_j)^2)`: the row with each coefficient changed by less than
-/// 32 units in the last place has exactly this solution. What is not finite is none.
+/// It is one if in each row `|a . x - b| < 32 eps sqrt(sum (a_j x_j)^2)`: the row with each coefficient changed by some dozen
+/// roundings has exactly this solution. What is not finite is none, nor is what is so large that its squares are not.
 ///
 /// ```
 /// use dyn_runtime::solve::solve_after_attempt;

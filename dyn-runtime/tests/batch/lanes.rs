@@ -2,8 +2,9 @@
 
 use dyn_runtime::batch::{Batch, Column, ColumnMut};
 use dyn_runtime::kernels::{self, generic};
-use dyn_runtime::lanes::Instructions;
+use dyn_runtime::lanes::{Instructions, Kernel, Lanes};
 use dyn_runtime::models::{Uhp, Uhp2016};
+use dyn_runtime::solve::solve_after_attempt;
 
 use crate::fused::{Fused, FusedMultiplyAdd};
 use crate::inputs::{Inputs, inverse, rows};
@@ -77,7 +78,44 @@ fn this_processor_s_instructions_are_in_order() {
     assert_eq!(names[0], Instructions::widest().name());
 }
 
-/// Covers the system that lanes solve with pivots of their own.
+/// A solution that is known in every other lane: there it stays as it is, elsewhere elimination finds it.
+struct Attempts;
+
+impl Kernel<f64> for Attempts {
+    type Output = ();
+
+    fn run<T: Lanes<Number = f64>>(self) {
+        let exact = |row: usize, lane: usize| (row + 1) as f64 / (2 + lane) as f64;
+        let known = |row: usize, lane: usize| exact(row, lane) * (1.0 + 8.0 * f64::EPSILON);
+        let (mut matrix, mut right) = ([[T::constant(0.0); 6]; 6], [T::constant(0.0); 6]);
+        let mut attempt = right;
+        for row in 0..6 {
+            // Rows have to be exchanged.
+            let equation = (row + 1) % 6;
+            matrix[equation][row] = T::from_fn(|lane| (2 + lane) as f64);
+            right[equation] = T::splat((row + 1) as f64);
+            attempt[row] = T::from_fn(|lane| if lane % 2 == 0 { known(row, lane) } else { 7.5 });
+        }
+        for (row, numbers) in solve_after_attempt(&attempt, &matrix, &right).into_iter().enumerate() {
+            numbers.for_each(|lane, number| {
+                if lane % 2 == 0 {
+                    assert_eq!(number, known(row, lane));
+                } else {
+                    let error = (number / exact(row, lane) - 1.0).abs();
+                    assert!(error <= 4.0 * f64::EPSILON, "{row}, {lane}: {number}");
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn each_lane_keeps_its_attempt_or_is_solved() {
+    for instructions in Instructions::available() {
+        instructions.run(Attempts);
+    }
+}
+
 #[test]
 fn every_lane_may_have_a_platform_of_its_own() {
     let inputs = Inputs::<f64>::new(21);
