@@ -56,8 +56,8 @@ macro_rules! unless_wrong {
             const MOST: $number = solve::MOST_RESIDUAL as $number * $number::EPSILON;
             let mut right = true;
             for row in 0..N {
-                // Squares that overflow make no number of their difference, and nothing is less than that.
-                let overflow = squares[row] - squares[row];
+                // Squares that overflow make no number here, and nothing is less than that.
+                let overflow = squares[row] * 0.0;
                 right &= residuals[row] * residuals[row] < MOST * MOST * squares[row] + overflow;
             }
             if right {

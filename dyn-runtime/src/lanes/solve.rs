@@ -53,8 +53,8 @@ pub(super) fn unless_wrong<T: Lanes, const N: usize>(
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mut right = one;
     for row in 0..N {
-        // As of single numbers: squares that overflow make no number of their difference.
-        let overflow = squares[row] - squares[row];
+        // As of single numbers: squares that overflow make no number here.
+        let overflow = squares[row] * zero;
         let small = (residuals[row] * residuals[row]).less_than(most * squares[row] + overflow);
         right = T::select(small, right, zero);
     }
