@@ -32,14 +32,17 @@ pub trait Scalar:
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N];
 
     /// `attempt` if the residual of each row is small beside the root of the sum of its terms' squares, else
-    /// [`solve_general`](Self::solve_general); in lanes each for itself. See [`solve::solve_after_attempt`].
+    /// [`solve_general`](Self::solve_general); in lanes each for itself. See [`solve::solve_after_attempt`]. Unless a type of
+    /// number says otherwise, no attempt is good enough: that is right too, and slower.
     fn unless_wrong<const N: usize>(
-        attempt: &[Self; N],
-        residuals: &[Self; N],
-        squares: &[Self; N],
+        _attempt: &[Self; N],
+        _residuals: &[Self; N],
+        _squares: &[Self; N],
         matrix: &[[Self; N]; N],
         right_hand_side: &[Self; N],
-    ) -> [Self; N];
+    ) -> [Self; N] {
+        Self::solve_general(matrix, right_hand_side)
+    }
 }
 
 /// [`Scalar::unless_wrong`] of single numbers.

@@ -138,20 +138,3 @@ fn lane_after_lane<P: Triple, const N: usize>(matrix: &[[P; N]; N], right_hand_s
     });
     core::array::from_fn(|row| P::triple(solutions.map(|solution| solution[row])))
 }
-
-/// [`Scalar::unless_wrong`] for each lane by itself.
-fn lane_unless_wrong<P: Triple, const N: usize>(
-    attempt: &[P; N],
-    residuals: &[P; N],
-    squares: &[P; N],
-    matrix: &[[P; N]; N],
-    right_hand_side: &[P; N],
-) -> [P; N] {
-    let solutions = [0, 1, 2].map(|lane| {
-        let matrix = matrix.map(|row| row.map(|entry| entry.lane(lane)));
-        let [attempt, residuals, squares, right_hand_side] = [attempt, residuals, squares, right_hand_side]
-            .map(|numbers| numbers.map(|number| number.lane(lane)));
-        P::Lane::unless_wrong(&attempt, &residuals, &squares, &matrix, &right_hand_side)
-    });
-    core::array::from_fn(|row| P::triple(solutions.map(|solution| solution[row])))
-}

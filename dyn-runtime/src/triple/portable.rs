@@ -54,16 +54,6 @@ impl<T: Scalar> Scalar for Portable<T> {
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         super::lane_after_lane(matrix, right_hand_side)
     }
-
-    fn unless_wrong<const N: usize>(
-        attempt: &[Self; N],
-        residuals: &[Self; N],
-        squares: &[Self; N],
-        matrix: &[[Self; N]; N],
-        right_hand_side: &[Self; N],
-    ) -> [Self; N] {
-        super::lane_unless_wrong(attempt, residuals, squares, matrix, right_hand_side)
-    }
 }
 
 impl<T: Scalar> Triple for Portable<T> {
