@@ -43,12 +43,11 @@ fn scale(expected: &[Environment], output: &str) -> Scale {
 fn model_with_run_time_parameters_on_every_platform() {
     let mut comparison = Comparison::default();
     for platform in platforms::all() {
-        add_model(
-            &mut comparison,
-            &*compiled::at_run_time(&platform),
-            &platform,
-            &format!("run time, {}", platform.name),
-        );
+        let name = &platform.name;
+        let model = compiled::at_run_time(&platform);
+        add_model(&mut comparison, &*model, &platform, &format!("run time, {name}"));
+        let model = compiled::prepared(&platform);
+        add_model(&mut comparison, &*model, &platform, &format!("prepared, {name}"));
     }
     comparison.finish();
 }

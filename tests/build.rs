@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
     let mut models = String::new();
     let mut by_name = String::new();
-    let mut baked = vec![(LegType::Uhp, "uhp_2016", "dyn_runtime::models::Uhp2016".to_owned())];
+    let mut baked = vec![(LegType::Uhp, "uhp_2016", "models::Uhp2016".to_owned())];
     for name in BAKED {
         let path = folder.join(format!("{name}.toml"));
         println!("cargo::rerun-if-changed={}", path.display());
@@ -57,9 +57,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for leg_type in LegType::ALL {
         let program = GraphFile::of(leg_type)?.program;
         by_name += &call(&program)?;
-        let at_run_time = format!("dyn_runtime::models::{}", type_name(leg_type.name()));
+        let at_run_time =
+            ["", "Prepared"].map(|form| format!("models::{form}{}", type_name(leg_type.name())));
         let of_type = baked.iter().filter(|(of, ..)| *of == leg_type).map(|(_, _, model)| model);
-        for model in of_type.chain([&at_run_time]) {
+        for model in of_type.chain(&at_run_time) {
             by_name += &implementation(leg_type, model);
         }
     }

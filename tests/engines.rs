@@ -38,8 +38,11 @@ fn all() -> Vec<Vectors> {
 fn model_with_run_time_parameters() {
     let mut comparison = Comparison::default();
     for vectors in all() {
-        let label = format!("run time, {}", vectors.platform.name);
-        add_model(&mut comparison, &*compiled::at_run_time(&vectors.platform), &vectors, &label);
+        let name = &vectors.platform.name;
+        let model = compiled::at_run_time(&vectors.platform);
+        add_model(&mut comparison, &*model, &vectors, &format!("run time, {name}"));
+        let model = compiled::prepared(&vectors.platform);
+        add_model(&mut comparison, &*model, &vectors, &format!("prepared, {name}"));
     }
     comparison.finish();
 }

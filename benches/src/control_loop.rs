@@ -34,12 +34,33 @@ pub enum Waiting {
 /// Longest time that is told apart from longer ones, ns.
 const LONGEST_NS: u64 = 1_000_000_000;
 
+/// A machine that is steady lets a rehearsal take this much more than the median one at most...
+const STEADY: f64 = 1.15;
+
+/// ...or this much, ns, which two readings of the clock may differ by...
+const CLOCK_NS: u64 = 20;
+
+/// ...and the cycle begin this late, ns.
+const PUNCTUAL_NS: u64 = 1000;
+
 /// Times of all cycles of one run, ns.
 pub struct Run {
     /// Of the model itself.
     pub model: Histogram<u64>,
+    /// The same of those cycles alone that found the machine steady: the last two rehearsals took their usual time, and the
+    /// cycle began when it should. What the model took in the cycle itself has no say in this. Empty without rehearsals.
+    pub steady: Histogram<u64>,
     /// From when a cycle should have begun to when it began: the operating system's share, not the model's.
     pub lateness: Histogram<u64>,
+}
+
+/// What was measured of one cycle, ns.
+#[derive(Clone, Default)]
+struct Cycle {
+    model: u64,
+    lateness: u64,
+    /// The last two.
+    rehearsals: Option<[u64; 2]>,
 }
 
 /// What a histogram says in five numbers, ns.
@@ -68,23 +89,29 @@ pub fn run<State: Clone>(
     states: &[State],
     model: &mut dyn FnMut(&State),
 ) -> Result<Run, hdrhistogram::CreationError> {
-    let histogram = || Histogram::new_with_bounds(1, LONGEST_NS, 3);
-    let mut result = Run { model: histogram()?, lateness: histogram()? };
-    let cycles = (duration.as_nanos() / PERIOD.as_nanos()) as usize;
+    let number = (duration.as_nanos() / PERIOD.as_nanos()) as usize;
+    let mut cycles = vec![Cycle::default(); number];
+    // The memory stays, and has been written to: no page fault falls into the loop.
+    cycles.clear();
     let mut before: Option<State> = None;
     let mut due = Instant::now() + PERIOD;
-    for state in states.iter().cycle().take(cycles) {
-        match &before {
+    for state in states.iter().cycle().take(number) {
+        let rehearsals = match &before {
             Some(state) if waiting == Waiting::Rehearsing => rehearse(due, || model(black_box(state))),
-            _ => sleep_until(due - AWAKE),
-        }
+            _ => {
+                sleep_until(due - AWAKE);
+                None
+            }
+        };
         let state = black_box(state.clone());
         let begun = wait_until(due);
         model(&state);
         let ended = Instant::now();
-        // Longer than the longest counts as the longest.
-        result.model.saturating_record(nanoseconds(ended - begun));
-        result.lateness.saturating_record(nanoseconds(begun - due));
+        cycles.push(Cycle {
+            model: nanoseconds(ended - begun),
+            lateness: nanoseconds(begun - due),
+            rehearsals: rehearsals.map(|two| two.map(nanoseconds)),
+        });
         before = Some(state);
         // A cycle that was missed is not made up for: a controller would act on old measurements.
         due += PERIOD;
@@ -92,17 +119,42 @@ pub fn run<State: Clone>(
             due += PERIOD;
         }
     }
-    Ok(result)
+    histograms(&cycles)
 }
 
-fn rehearse(due: Instant, mut call: impl FnMut()) {
-    let (mut now, mut last) = (Instant::now(), Duration::ZERO);
-    while now + ROOM * last < due {
+/// Longer than the longest counts as the longest.
+fn histograms(cycles: &[Cycle]) -> Result<Run, hdrhistogram::CreationError> {
+    let empty = || Histogram::new_with_bounds(1, LONGEST_NS, 3);
+    let (mut model, mut steady, mut lateness) = (empty()?, empty()?, empty()?);
+    // The last one is the longest of its cycle too often: nothing fits behind it.
+    let mut usual = empty()?;
+    for [last_but_one, _] in cycles.iter().filter_map(|cycle| cycle.rehearsals) {
+        usual.saturating_record(last_but_one);
+    }
+    let usual = usual.value_at_quantile(0.5);
+    let longest = ((usual as f64 * STEADY) as u64).max(usual + CLOCK_NS);
+    for cycle in cycles {
+        model.saturating_record(cycle.model);
+        lateness.saturating_record(cycle.lateness);
+        let rehearsed = |two: [u64; 2]| two.iter().all(|&time| time <= longest);
+        if cycle.lateness < PUNCTUAL_NS && cycle.rehearsals.is_some_and(rehearsed) {
+            steady.saturating_record(cycle.model);
+        }
+    }
+    Ok(Run { model, steady, lateness })
+}
+
+/// Repeats the call as long as there is time; what the last two took.
+fn rehearse(due: Instant, mut call: impl FnMut()) -> Option<[Duration; 2]> {
+    let (mut now, mut two) = (Instant::now(), [None; 2]);
+    while now + ROOM * two[1].unwrap_or_default() < due {
         call();
         let ended = Instant::now();
-        last = ended - now;
+        two = [two[1], Some(ended - now)];
         now = ended;
     }
+    let [last_but_one, last] = two;
+    Some([last_but_one?, last?])
 }
 
 fn sleep_until(awake: Instant) {
@@ -174,7 +226,7 @@ mod tests {
         })
         .unwrap();
         assert_eq!(cycles, [0, 1, 2, 3, 4, 5, 6, 0, 1, 2]);
-        assert_eq!((run.model.len(), run.lateness.len()), (10, 10));
+        assert_eq!((run.model.len(), run.steady.len(), run.lateness.len()), (10, 0, 10));
         let summary = Summary::of(&run.model);
         assert!(summary.max_ns >= 2_000_000 && summary.median_ns < 2_000_000, "{summary:?}");
     }
@@ -187,9 +239,28 @@ mod tests {
         let duration = CYCLES as u32 * PERIOD;
         let run = run(duration, Waiting::Rehearsing, &states, &mut |cycle| cycles.push(*cycle)).unwrap();
         assert_eq!(run.model.len() as usize, CYCLES);
+        assert!(run.steady.len() > 0 && run.steady.len() < run.model.len());
         assert!(cycles.is_sorted() && cycles.len() > CYCLES);
         cycles.dedup();
         assert!(cycles.into_iter().eq(0..CYCLES));
+    }
+
+    #[test]
+    fn steady_is_what_was_steady_before_and_whatever_the_cycle_took() {
+        let cycle = |model, lateness, rehearsals| Cycle { model, lateness, rehearsals };
+        let usual = Some([300, 300]);
+        let mut cycles: Vec<Cycle> = (0..20).map(|_| cycle(310, 20, usual)).collect();
+        cycles.extend([
+            cycle(9000, 20, usual),
+            cycle(1, 20, Some([300, 346])),
+            cycle(2, 20, Some([346, 300])),
+            cycle(3, 1000, usual),
+            cycle(4, 20, None),
+        ]);
+        let run = histograms(&cycles).unwrap();
+        assert_eq!((run.model.len(), run.steady.len()), (25, 21));
+        assert_eq!(run.steady.min(), 310);
+        assert!(run.steady.max() >= 9000);
     }
 
     #[test]

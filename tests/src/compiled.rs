@@ -2,7 +2,7 @@
 
 use dyn_gen::graph::Environment;
 use dyn_platform::{LegType, Platform};
-use dyn_runtime::models::{uhp, ups};
+use dyn_runtime::models::{self, uhp, ups};
 
 include!(concat!(env!("OUT_DIR"), "/by_name.rs"));
 
@@ -21,17 +21,37 @@ pub trait Model: Sync {
 
 /// The model with parameters at run time, for any platform.
 pub fn at_run_time(platform: &Platform) -> Box<dyn Model + Send> {
-    with_parameters(platform.leg_type, &|name, values| {
-        values.copy_from_slice(&platform.parameter(name).expect("platforms have every parameter"));
-    })
+    with_parameters(platform.leg_type, &of(platform))
+}
+
+/// The same with what follows from the parameters alone computed once.
+pub fn prepared(platform: &Platform) -> Box<dyn Model + Send> {
+    match platform.leg_type {
+        LegType::Uhp => Box::new(uhp_model(&of(platform)).prepared()),
+        LegType::Ups => Box::new(ups_model(&of(platform)).prepared()),
+    }
 }
 
 /// The model of a leg type, its parameters filled by name.
 pub fn with_parameters(leg_type: LegType, fill: &dyn Fn(&str, &mut [f64])) -> Box<dyn Model + Send> {
     match leg_type {
-        LegType::Uhp => Box::new(dyn_runtime::models::Uhp { parameters: uhp::Parameters::from_fn(fill) }),
-        LegType::Ups => Box::new(dyn_runtime::models::Ups { parameters: ups::Parameters::from_fn(fill) }),
+        LegType::Uhp => Box::new(uhp_model(fill)),
+        LegType::Ups => Box::new(ups_model(fill)),
     }
+}
+
+fn of(platform: &Platform) -> impl Fn(&str, &mut [f64]) {
+    move |name, values| {
+        values.copy_from_slice(&platform.parameter(name).expect("platforms have every parameter"));
+    }
+}
+
+fn uhp_model(fill: &dyn Fn(&str, &mut [f64])) -> models::Uhp {
+    models::Uhp { parameters: uhp::Parameters::from_fn(fill) }
+}
+
+fn ups_model(fill: &dyn Fn(&str, &mut [f64])) -> models::Ups {
+    models::Ups { parameters: ups::Parameters::from_fn(fill) }
 }
 
 /// All outputs of all functions: function, output, values.

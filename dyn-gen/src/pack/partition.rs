@@ -1,7 +1,7 @@
 //! Which legs stand side by side: the blocks of the linear system for the actuators' reactions are made of them.
 
-use crate::graph::{Environment, Evaluator, Graph, Solve, SolveKind, solve_general};
-use crate::passes::{Context, EVERY_OTHER, depends_on_parameters};
+use crate::graph::{Graph, SolveKind, solve_general};
+use crate::passes::{Context, EVERY_OTHER, depends_on_parameters, sampled_matrices};
 
 /// Legs in two times three lanes, and how the solve in blocks of them does over the sampled states.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
@@ -36,7 +36,7 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
         return Partition { legs: EVERY_OTHER.to_vec(), examined: true, ..in_order };
     }
     let references: Vec<Reference> =
-        sampled_matrices(graph, solve, context).iter().map(Reference::new).collect();
+        sampled_matrices(graph, solve, context).iter().map(|matrix| Reference::new(matrix)).collect();
     let growth =
         |legs: &[usize]| references.iter().map(|reference| reference.growth(legs)).fold(0.0, f64::max);
     // Exchanging the halves is a choice of its own: the first block is inverted as it is.
@@ -67,23 +67,6 @@ fn stays_regular(references: &[Reference], legs: &[usize]) -> bool {
             (least.min(determinant), most.max(determinant))
         });
     least >= LEAST_SHARE * most && least > 0.0 || most <= LEAST_SHARE * least && most < 0.0
-}
-
-/// The matrix at every sampled state, row-major.
-fn sampled_matrices(graph: &Graph, solve: &Solve, context: &Context) -> Vec<[[f64; 6]; 6]> {
-    let mut evaluator = Evaluator::new();
-    let sample = |state: &Environment| {
-        let zeros = graph.inputs.iter().map(|symbol| vec![0.0; symbol.len()]).collect::<Vec<_>>();
-        let inputs = graph.inputs.iter().zip(&zeros).map(|(symbol, zeros)| {
-            let known = context.parameters.get(&symbol.name).or_else(|| state.get(&symbol.name));
-            known.filter(|values| values.len() == symbol.len()).unwrap_or(zeros).as_slice()
-        });
-        let values = evaluator.run(graph, &inputs.collect::<Vec<_>>());
-        std::array::from_fn(|row| {
-            std::array::from_fn(|column| values[solve.matrix[6 * row + column].index()])
-        })
-    };
-    context.states.iter().map(sample).collect()
 }
 
 type Block = [[f64; 3]; 3];
@@ -138,7 +121,10 @@ struct Reference {
 }
 
 impl Reference {
-    fn new(matrix: &[[f64; 6]; 6]) -> Reference {
+    /// `matrix` is 6 x 6, row-major.
+    fn new(matrix: &[f64]) -> Reference {
+        let matrix: [[f64; 6]; 6] =
+            std::array::from_fn(|row| std::array::from_fn(|column| matrix[6 * row + column]));
         let solved = |right: [f64; 6]| {
             let mut solution = right;
             solve_general(&mut matrix.concat(), &mut solution, &mut Vec::new());
@@ -154,7 +140,7 @@ impl Reference {
             }
             moved.iter().chain(&exact).fold(0.0_f64, |most, x| most.max(x.abs())) * f64::EPSILON
         });
-        Reference { matrix: *matrix, exact, allowed }
+        Reference { matrix, exact, allowed }
     }
 
     /// How much worse than rounding of the matrix the solution is.

@@ -102,14 +102,15 @@ pub(crate) fn depends_on_parameters(graph: &Graph, solve: &Solve, context: &Cont
     graph.nodes.iter().zip(needed).any(|(node, needed)| needed && at_run_time(node))
 }
 
-/// The matrix at every sampled state.
-fn sampled_matrices(graph: &Graph, solve: &Solve, context: &Context) -> Vec<Vec<f64>> {
+/// The matrix at every sampled state, row-major. Parameters have the platform's values, if they are known.
+pub(crate) fn sampled_matrices(graph: &Graph, solve: &Solve, context: &Context) -> Vec<Vec<f64>> {
     let mut evaluator = Evaluator::new();
     let zeros = graph.inputs.iter().map(|symbol| vec![0.0; symbol.len()]).collect::<Vec<_>>();
     let sample = |state: &Environment| {
         let inputs = graph.inputs.iter().zip(&zeros).map(|(symbol, zeros)| {
+            let known = context.parameters.get(&symbol.name).or_else(|| state.get(&symbol.name));
             // What the matrix does not depend on may be missing.
-            state.get(&symbol.name).filter(|values| values.len() == symbol.len()).unwrap_or(zeros).as_slice()
+            known.filter(|values| values.len() == symbol.len()).unwrap_or(zeros).as_slice()
         });
         let values = evaluator.run(graph, &inputs.collect::<Vec<_>>());
         solve.matrix.iter().map(|node| values[node.index()]).collect()

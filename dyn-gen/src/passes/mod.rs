@@ -30,7 +30,7 @@ use crate::graph::{Environment, Graph, OperationCount};
 
 pub(crate) use bake::known_values;
 pub(crate) use blocks::{EVERY_OTHER, attempted, in_blocks, symmetric_triples};
-pub(crate) use expand::depends_on_parameters;
+pub(crate) use expand::{depends_on_parameters, sampled_matrices};
 pub use pivot::PivotOrder;
 pub(crate) use rewrite::Images;
 pub(crate) use simplify::simplified;
