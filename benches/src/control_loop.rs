@@ -239,7 +239,7 @@ mod tests {
         let duration = CYCLES as u32 * PERIOD;
         let run = run(duration, Waiting::Rehearsing, &states, &mut |cycle| cycles.push(*cycle)).unwrap();
         assert_eq!(run.model.len() as usize, CYCLES);
-        assert!(run.steady.len() > 0 && run.steady.len() < run.model.len());
+        assert!(!run.steady.is_empty() && run.steady.len() < run.model.len());
         assert!(cycles.is_sorted() && cycles.len() > CYCLES);
         cycles.dedup();
         assert!(cycles.into_iter().eq(0..CYCLES));
