@@ -205,7 +205,10 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
                 limit[leg]
             }
         };
-        let conditioning = check::jacobian_condition_bound(&jacobian_dp) - limits.minimum_condition_bound;
+        let bound = check::jacobian_condition_bound(&jacobian_dp);
+        // Of a singular J_dp the bound may be no number; it holds nothing then.
+        let bound = if bound.is_finite() { bound } else { T::zero() };
+        let conditioning = bound - limits.minimum_condition_bound;
         Ok(Monitor {
             margins: [
                 least(Quantity::ActuatorLength, &stroke),
