@@ -39,10 +39,10 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// from how far the paper's platform finds its pose.
     ///
     /// # Errors
-    /// See [`Hexapod`] for poses and lengths that are refused. [`Error::OutOfReach`] or
-    /// [`Error::RodPerpendicular`] where the start, or every pose towards the lengths, is out of this leg's reach;
-    /// [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
-    /// [`Error::NoConvergence`] otherwise.
+    /// See [`Hexapod`] for poses and lengths that are refused; [`Error::OutOfReach`] and [`Error::RodPerpendicular`] are about
+    /// the start. [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
+    /// [`Error::NoConvergence`] otherwise, also where no leg could reach the poses that the lengths lead to. A wrong length
+    /// often has a pose all the same: see whether it is within the stroke first.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::Vector3;

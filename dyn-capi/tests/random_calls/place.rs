@@ -76,7 +76,10 @@ structures! {
         own.platform_position.is_good() && own.platform_rotation.is_good() && own.residual.is_finite()
             && own.iterations <= 30
     };
-    Info: |own| (-1..6).contains(&own.leg) && (-1..6).contains(&own.quantity);
+    // 18 numbers are the largest input or parameter.
+    Info: |own| {
+        (-1..18).contains(&own.element) && (-1..6).contains(&own.leg) && (-1..6).contains(&own.quantity)
+    };
 }
 
 /// The numbers after the size, of a struct that has nothing else.

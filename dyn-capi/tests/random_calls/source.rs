@@ -111,7 +111,7 @@ impl Source {
         self.numbers(&quaternion.map(|part| (part / norm) as Real))
     }
 
-    /// Limits, some of them none.
+    /// Limits, some of them infinite, some that are none.
     pub fn limits(&mut self) -> Limits {
         let mut limits = Limits {
             struct_size: size_of::<Limits>(),
@@ -120,7 +120,7 @@ impl Source {
             maximum_velocity: [3.0; 6],
             maximum_force: [55.0; 6],
             maximum_hooke_joint_angle: [0.5; 6],
-            maximum_platform_joint_angle: [Real::INFINITY; 6],
+            maximum_platform_joint_angle: [[0.5, Real::INFINITY][self.random.random_range(0..2)]; 6],
             home_direction_in_base: [[0.0, 0.0, 1.0]; 6],
             home_direction_in_platform: [self.three(1.0); 6],
             minimum_condition_bound: 1e-3,
@@ -128,6 +128,12 @@ impl Source {
         if self.chance(2) {
             limits.minimum_length = [Real::NEG_INFINITY; 6];
             limits.maximum_length = [Real::INFINITY; 6];
+        }
+        match self.one_of(40) {
+            0 => limits.maximum_velocity[1] = Real::NAN,
+            1 => limits.home_direction_in_base[4] = [0.0; 3],
+            2 => limits.minimum_condition_bound = Real::NAN,
+            _ => {}
         }
         self.size(&mut limits.struct_size);
         limits

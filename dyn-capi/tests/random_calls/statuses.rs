@@ -11,7 +11,7 @@ fn own(call: &str) -> Vec<Status> {
         "dyn_rotation_from_quaternion" => vec![NonFinite, NotARotation],
         "dyn_rotation_from_angles" | "dyn_angular_velocity" => vec![NonFinite],
         "dyn_angle_rates" => vec![NonFinite, GimbalLock],
-        "dyn_currents" => vec![NonFinite, InvalidModel],
+        "dyn_currents" => vec![NonFinite, InvalidCoil],
         "dyn_check_model" => vec![UnknownModel, InvalidParameter],
         // The paper does not say what its coils are.
         "dyn_model_voice_coils" => return vec![NullPointer, WrongStructSize, UnknownModel, NotInModel],
@@ -22,7 +22,8 @@ fn own(call: &str) -> Vec<Status> {
             [&at_poses[..], &[SingularJacobian]].concat()
         }
         "dyn_forward_kinematics" => [&at_poses[..], &[SingularJacobian, NoConvergence]].concat(),
-        "dyn_check_limits" => [&at_poses[..], &[BeyondLimit]].concat(),
+        "dyn_monitor" => [&at_poses[..], &[InvalidLimit]].concat(),
+        "dyn_check_limits" => [&at_poses[..], &[InvalidLimit, BeyondLimit]].concat(),
         _ => at_poses.to_vec(),
     };
     [&[Ok, NullPointer, WrongStructSize], &own[..]].concat()
