@@ -190,6 +190,10 @@ impl Source {
             relative = home;
             relative.position_m.x += self.edge + 1e-6 * self.random.random_range(-1.0..0.2);
         }
+        if self.chance(30) {
+            // So far that all legs are one, where no reach ends.
+            relative.position_m *= 10.0_f64.powi(self.random.random_range(1..150));
+        }
         let base = self.pose(1.0, 1.0);
         let platform = base.compose(&relative);
         let mut inputs = Inputs {
