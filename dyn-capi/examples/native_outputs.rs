@@ -1,60 +1,181 @@
-//! What the library computes for the test vectors, as JSON on standard output: for comparison with the same library on
-//! another machine. Structs appear as the numbers that follow their `struct_size`, in the header's order.
+//! What the library computes for the test vectors and for what is derived from them, by every function of the header that gives a
+//! status, as JSON on standard output: for comparison with the same library on another machine. Structs appear as the numbers that
+//! follow their `struct_size`, in the header's order, and the integers after those.
 
 // C's own interface, called as C calls it.
 #![allow(unsafe_code)]
 
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::mem::size_of;
 use std::path::Path;
 use std::ptr::{null, null_mut};
 
 use dyn_capi as capi;
-use dyn_capi::{Inputs, Model, ModelKind, Real, Status, UhpParameters, UpsParameters};
+use dyn_capi::{Coils, Info, Inputs, LegKinematics, Limits, Model, ModelKind, Real, Status};
 use dyn_platform::{LegType, Platform};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-/// Calls functions of the interface; name, whether the output is a struct, and its numbers.
-macro_rules! outputs {
-    ($model:ident, $inputs:ident; $($function:ident: $output:ty),+ $(,)?) => {{
-        let mut outputs = Map::new();
-        $({
-            const NUMBERS: usize = numbers::<$output>();
-            let mut place = [Real::NAN; NUMBERS + HEADER];
-            let output: *mut $output = if is_structure::<$output>() {
-                // SAFETY: the place is as large as the struct and aligned like it.
-                unsafe { place.as_mut_ptr().cast::<usize>().write(size_of::<$output>()) };
-                place.as_mut_ptr().cast()
-            } else {
-                place[HEADER..].as_mut_ptr().cast()
-            };
-            // SAFETY: model and inputs live, the output has its size.
-            let status = unsafe { capi::$function(&$model, &$inputs, output, null_mut()) };
-            if status != Status::Ok {
-                return Err(format!("{}: {status:?}", stringify!($function)).into());
-            }
-            outputs.insert(
-                stringify!($function).into(),
-                json!({ "structure": is_structure::<$output>(), "numbers": place[HEADER..] }),
-            );
-        })+
-        outputs
-    }};
+/// What a call writes.
+trait Output {
+    /// Whether it begins with its size.
+    const IS_STRUCTURE: bool;
+    /// Integers after its numbers.
+    const INTEGERS: usize = 0;
+}
+
+impl<const N: usize> Output for [Real; N] {
+    const IS_STRUCTURE: bool = false;
+}
+
+impl<const N: usize, const M: usize> Output for [[Real; N]; M] {
+    const IS_STRUCTURE: bool = false;
+}
+
+/// Structs, and how many integers they end with.
+macro_rules! structures {
+    ($($structure:ident: $integers:literal),+ $(,)?) => {$(
+        impl Output for capi::$structure {
+            const IS_STRUCTURE: bool = true;
+            const INTEGERS: usize = $integers;
+        }
+    )+};
+}
+
+structures!(
+    LegKinematics: 0,
+    CoriolisMatrices: 0,
+    StiffnessMatrices: 0,
+    Matrices: 0,
+    PassiveForces: 0,
+    EquationOfMotion: 0,
+    Energy: 0,
+    Control: 0,
+    ForwardKinematics: 1,
+    Limits: 0,
+    Coils: 0,
+    Margins: 6,
+    CurrentsResult: 1,
+);
+
+/// What goes into a call, and how the comparison puts it there.
+struct Argument<T> {
+    pointer: *const T,
+    description: Value,
+}
+
+impl<T> Argument<T> {
+    /// The model or the inputs of the case.
+    fn named(name: &str, structure: &T) -> Self {
+        Self { pointer: structure, description: json!(name) }
+    }
+
+    /// A struct of numbers.
+    fn structure(structure: &T) -> Self {
+        Self { pointer: structure, description: json!({ "structure": true, "numbers": words(structure) }) }
+    }
+}
+
+impl Argument<Real> {
+    fn numbers(numbers: &[Real]) -> Self {
+        Self { pointer: numbers.as_ptr(), description: json!({ "structure": false, "numbers": numbers }) }
+    }
+}
+
+/// Calls functions of the interface and adds what comes out to a list. Without output: `()`.
+macro_rules! calls {
+    ($list:expr; $($function:ident($($argument:expr),*): $output:ty),+ $(,)?) => {$(
+        let mut info = details();
+        let mut place = Place::new::<$output>();
+        // SAFETY: arguments live, the output has its size.
+        let status = unsafe { capi::$function($($argument.pointer,)* place.start::<$output>(), &mut info) };
+        let arguments = json!([$($argument.description),*]);
+        $list.push(record(stringify!($function), arguments, status, &info, place.read::<$output>(status)));
+    )+};
+}
+
+/// Calls functions without output.
+macro_rules! questions {
+    ($list:expr; $($function:ident($($argument:expr),*)),+ $(,)?) => {$(
+        let mut info = details();
+        // SAFETY: arguments live.
+        let status = unsafe { capi::$function($($argument.pointer,)* &mut info) };
+        let arguments = json!([$($argument.description),*]);
+        $list.push(record(stringify!($function), arguments, status, &info, Value::Null));
+    )+};
+}
+
+fn details() -> Info {
+    Info {
+        struct_size: size_of::<Info>(),
+        input: capi::InputName::None,
+        element: -1,
+        leg: -1,
+        quantity: -1,
+        value: 0.0,
+        limit: 0.0,
+    }
+}
+
+/// One call with all that came of it.
+fn record(name: &str, arguments: Value, status: Status, info: &Info, output: Value) -> Value {
+    json!({
+        "name": name,
+        "arguments": arguments,
+        "status": status as i32,
+        "details": {
+            "integers": [info.input as i32, info.element, info.leg, info.quantity],
+            "numbers": [number(&info.value), number(&info.limit)],
+        },
+        "output": output,
+    })
+}
+
+/// Where an output goes.
+struct Place(Vec<u64>);
+
+impl Place {
+    fn new<O: Output>() -> Self {
+        let mut words = vec![u64::MAX; size_of::<O>().div_ceil(8)];
+        if O::IS_STRUCTURE {
+            words[0] = size_of::<O>() as u64;
+        }
+        Self(words)
+    }
+
+    fn start<O>(&mut self) -> *mut O {
+        self.0.as_mut_ptr().cast()
+    }
+
+    /// What the output is, and what has been written there, if anything has.
+    fn read<O: Output>(&self, status: Status) -> Value {
+        let header = if O::IS_STRUCTURE { HEADER } else { 0 };
+        let end = (size_of::<O>() - (4 * O::INTEGERS).next_multiple_of(8)) / size_of::<Real>();
+        let shape = json!({ "structure": O::IS_STRUCTURE, "numbers": end - header, "integers": O::INTEGERS });
+        if status != Status::Ok {
+            return json!({ "shape": shape, "numbers": [], "integers": [] });
+        }
+        let start = self.0.as_ptr().cast::<Real>();
+        // SAFETY: the library has written numbers up to `end` and integers from there.
+        let (numbers, integers) = unsafe {
+            let numbers: Vec<Value> = (header..end).map(|index| number(&*start.add(index))).collect();
+            (numbers, std::slice::from_raw_parts(start.add(end).cast::<i32>(), O::INTEGERS))
+        };
+        json!({ "shape": shape, "numbers": numbers, "integers": integers })
+    }
+}
+
+/// Infinite ones, which JSON does not have, as JavaScript writes them.
+fn number(number: &Real) -> Value {
+    match *number {
+        Real::INFINITY => json!("Infinity"),
+        Real::NEG_INFINITY => json!("-Infinity"),
+        finite => json!(finite),
+    }
 }
 
 /// Numbers in the place of `struct_size`.
 const HEADER: usize = size_of::<usize>() / size_of::<Real>();
-
-/// Arrays are as large as their numbers; structs have one member more.
-const fn is_structure<T>() -> bool {
-    let numbers = size_of::<T>() / size_of::<Real>();
-    // 6 and 36 numbers are the only arrays.
-    numbers != 6 && numbers != 36
-}
-
-const fn numbers<T>() -> usize {
-    size_of::<T>() / size_of::<Real>() - if is_structure::<T>() { HEADER } else { 0 }
-}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/vectors");
@@ -74,6 +195,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             platforms.push(run(&platform, cases, ModelKind::Baked)?);
         }
     }
+    assert_complete(&platforms)?;
     println!("{}", json!({ "platforms": platforms }));
     Ok(())
 }
@@ -81,8 +203,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn run(platform: &Platform, cases: &[Value], kind: ModelKind) -> Result<Value, Box<dyn Error>> {
     let numbers = numbers_of(platform)?;
     // Only the struct of the platform's leg type takes these numbers.
-    let uhp: Option<UhpParameters> = structure(&numbers).ok();
-    let ups: Option<UpsParameters> = structure(&numbers).ok();
+    let uhp: Option<capi::UhpParameters> = structure(&numbers).ok();
+    let ups: Option<capi::UpsParameters> = structure(&numbers).ok();
     let model = Model {
         struct_size: size_of::<Model>(),
         kind: kind as i32,
@@ -92,29 +214,138 @@ fn run(platform: &Platform, cases: &[Value], kind: ModelKind) -> Result<Value, B
     let mut results = Vec::new();
     for case in cases {
         let inputs = inputs(case)?;
-        let outputs = outputs!(model, inputs;
-            dyn_rod_alignment: [Real; 6],
-            dyn_leg_kinematics: capi::LegKinematics,
-            dyn_jacobian_dp: [[Real; 6]; 6],
-            dyn_jacobian_db: [[Real; 6]; 6],
-            dyn_mass_matrix_p: [[Real; 6]; 6],
-            dyn_mass_matrix_b: [[Real; 6]; 6],
-            dyn_coriolis_matrices: capi::CoriolisMatrices,
-            dyn_stiffness_matrices: capi::StiffnessMatrices,
-            dyn_matrices: capi::Matrices,
-            dyn_passive_forces: capi::PassiveForces,
-            dyn_bias: [Real; 6],
-            dyn_equation_of_motion: capi::EquationOfMotion,
-            dyn_inverse_dynamics: [Real; 6],
-            dyn_forward_dynamics: [Real; 6],
-            dyn_energy: capi::Energy,
-            dyn_control: capi::Control,
-            dyn_passive_inverse_dynamics: [Real; 6],
-            dyn_base_reaction: [Real; 6],
-        );
-        results.push(json!({ "inputs": words(&inputs), "outputs": outputs }));
+        results.push(json!({ "inputs": words(&inputs), "calls": calls_at(&model, &inputs)? }));
     }
     Ok(json!({ "name": platform.name, "kind": kind as i32, "parameters": numbers, "cases": results }))
+}
+
+/// Every function, at one state.
+fn calls_at(model: &Model, inputs: &Inputs) -> Result<Vec<Value>, Box<dyn Error>> {
+    let mut list = Vec::new();
+    let model = Argument::named("model", model);
+    let derived = Derived::of(model.pointer, inputs)?;
+    let inputs = Argument::named("inputs", inputs);
+    calls!(list;
+        dyn_rod_alignment(model, inputs): [Real; 6],
+        dyn_leg_kinematics(model, inputs): LegKinematics,
+        dyn_jacobian_dp(model, inputs): [[Real; 6]; 6],
+        dyn_jacobian_db(model, inputs): [[Real; 6]; 6],
+        dyn_mass_matrix_p(model, inputs): [[Real; 6]; 6],
+        dyn_mass_matrix_b(model, inputs): [[Real; 6]; 6],
+        dyn_coriolis_matrices(model, inputs): capi::CoriolisMatrices,
+        dyn_stiffness_matrices(model, inputs): capi::StiffnessMatrices,
+        dyn_matrices(model, inputs): capi::Matrices,
+        dyn_passive_forces(model, inputs): capi::PassiveForces,
+        dyn_bias(model, inputs): [Real; 6],
+        dyn_equation_of_motion(model, inputs): capi::EquationOfMotion,
+        dyn_inverse_dynamics(model, inputs): [Real; 6],
+        dyn_forward_dynamics(model, inputs): [Real; 6],
+        dyn_energy(model, inputs): capi::Energy,
+        dyn_control(model, inputs): capi::Control,
+        dyn_passive_inverse_dynamics(model, inputs): [Real; 6],
+        dyn_base_reaction(model, inputs): [Real; 6],
+    );
+    if let Some(refused) = list.iter().find(|call| call["status"] != 0) {
+        return Err(format!("a test vector is refused: {refused}").into());
+    }
+
+    let start = Argument::structure(&derived.start);
+    let (lengths, rates) = (Argument::numbers(&derived.lengths), Argument::numbers(&derived.rates));
+    let (limits, coils) = (Argument::structure(&derived.limits), Argument::structure(&derived.coils));
+    let forces = Argument::numbers(&derived.forces);
+    let (angles, speeds) = (Argument::numbers(&derived.angles), Argument::numbers(&derived.speeds));
+    let quaternion = Argument::numbers(&derived.quaternion);
+    calls!(list;
+        dyn_forward_kinematics(model, start, lengths): capi::ForwardKinematics,
+        dyn_platform_velocity(model, inputs, rates): [Real; 6],
+        dyn_monitor(model, inputs, limits): capi::Margins,
+        dyn_currents(coils, forces): capi::CurrentsResult,
+        dyn_model_limits(model): Limits,
+        dyn_model_voice_coils(model): Coils,
+        dyn_rotation_from_quaternion(quaternion): [[Real; 3]; 3],
+        dyn_rotation_from_angles(angles): [[Real; 3]; 3],
+        dyn_angular_velocity(angles, speeds): [Real; 3],
+        dyn_angle_rates(angles, speeds): [Real; 3],
+    );
+    questions!(list; dyn_check_model(model), dyn_check_limits(model, inputs, limits));
+    Ok(list)
+}
+
+/// What the calls of a control loop take besides, made of a test vector.
+struct Derived {
+    /// Moved a little.
+    start: Inputs,
+    /// At the state, m.
+    lengths: [Real; 6],
+    /// At the state, m/s.
+    rates: [Real; 6],
+    limits: Limits,
+    coils: Coils,
+    /// N.
+    forces: [Real; 6],
+    /// rad.
+    angles: [Real; 3],
+    /// Rates of angles or angular velocity, rad/s.
+    speeds: [Real; 3],
+    quaternion: [Real; 4],
+}
+
+impl Derived {
+    fn of(model: *const Model, inputs: &Inputs) -> Result<Self, Box<dyn Error>> {
+        let mut legs: LegKinematics =
+            structure(&vec![0.0; size_of::<LegKinematics>() / size_of::<Real>() - HEADER])?;
+        // SAFETY: all live.
+        let status = unsafe { capi::dyn_leg_kinematics(model, inputs, &mut legs, null_mut()) };
+        if status != Status::Ok {
+            return Err(format!("a test vector is refused: {status:?}").into());
+        }
+        let mut start = *inputs;
+        start.platform_position[0] += 2e-4;
+        start.platform_position[2] -= 3e-4;
+        let [vx, vy, vz, wx, wy, wz] = inputs.platform_velocity;
+        let norm = (1.0 + wx * wx + wy * wy + wz * wz).sqrt();
+        Ok(Self {
+            start,
+            lengths: legs.actuator_length,
+            rates: legs.actuator_velocity,
+            limits: Limits {
+                struct_size: size_of::<Limits>(),
+                minimum_length: legs.actuator_length.map(|length| length - 0.01),
+                maximum_length: legs.actuator_length.map(|length| length + 0.02),
+                maximum_velocity: [3.0; 6],
+                maximum_force: [50.0; 6],
+                maximum_hooke_joint_angle: [0.8; 6],
+                maximum_platform_joint_angle: [1.2; 6],
+                home_direction_in_base: [[0.1, -0.2, 0.9]; 6],
+                home_direction_in_platform: legs.rod_direction,
+                minimum_condition_bound: 1e-3,
+            },
+            coils: Coils {
+                struct_size: size_of::<Coils>(),
+                force_constant: [18.0, 19.0, 20.0, 21.0, 22.0, 23.0],
+                maximum_current: [2.0; 6],
+            },
+            forces: inputs.actuator_force,
+            angles: [wx, wy, wz],
+            speeds: [vx, vy, vz],
+            quaternion: [1.0 / norm, wx / norm, wy / norm, wz / norm],
+        })
+    }
+}
+
+/// Every function of the header that gives a status is among the calls.
+fn assert_complete(platforms: &[Value]) -> Result<(), Box<dyn Error>> {
+    let header = include_str!("../include/dyn_capi.h");
+    let functions = header.lines().filter_map(|line| line.strip_prefix("dyn_status "));
+    let functions: BTreeSet<&str> = functions.filter_map(|line| line.split('(').next()).collect();
+    for platform in platforms {
+        let calls = platform["cases"][0]["calls"].as_array().ok_or("no calls")?;
+        let called: BTreeSet<&str> = calls.iter().filter_map(|call| call["name"].as_str()).collect();
+        if called != functions {
+            return Err(format!("not called: {:?}", functions.difference(&called)).into());
+        }
+    }
+    Ok(())
 }
 
 /// The numbers of a struct after its size.
