@@ -5,9 +5,12 @@
 use core::panic::PanicInfo;
 
 use dyn_runtime::current::VoiceCoils;
-use dyn_runtime::models::{Uhp, Uhp2016, Ups};
+use dyn_runtime::models::{PreparedUhp, PreparedUps, Uhp, Uhp2016, Ups};
 use dyn_runtime::nalgebra::Vector6;
-use dyn_runtime::{Acceleration, BaseMotion, Hexapod, Limits, PlatformState, Pose, Real, Twist, Wrench, kernels};
+use dyn_runtime::{
+    Acceleration, BaseMotion, Hexapod, Limits, PlatformState, Pose, Real, Twist, Wrench, angles, kernels,
+    rotation_vector,
+};
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
@@ -108,6 +111,74 @@ of_run_time!(body_kinematics_ups: Ups, |h, a| h.ups_body_kinematics(&a.base, &a.
 of_run_time!(partial_velocities_ups: Ups, |h, a| h.ups_partial_velocities(&a.base, &a.platform));
 of_run_time!(generalised_forces_ups: Ups, |h, a| h.ups_generalised_forces(&a.base, &a.platform, &a.acceleration, &a.forces, &a.wrench));
 
+/// Calls of models whose parameters are prepared.
+macro_rules! checked_when_prepared {
+    ($($uhp:ident $ups:ident: |$h:ident, $a:ident| $call:expr;)*) => {$(
+        of_run_time!($uhp: PreparedUhp, |$h, $a| $call);
+        of_run_time!($ups: PreparedUps, |$h, $a| $call);
+    )*};
+}
+
+checked_when_prepared! {
+    inverse_dynamics_prepared_uhp inverse_dynamics_prepared_ups:
+        |h, a| h.inverse_dynamics(&a.base, &a.platform, &a.acceleration, &a.wrench);
+    forward_dynamics_prepared_uhp forward_dynamics_prepared_ups:
+        |h, a| h.forward_dynamics(&a.base, &a.platform, &a.forces, &a.wrench);
+    control_prepared_uhp control_prepared_ups: |h, a| h.control(&a.base, &a.platform, &a.acceleration, &a.wrench);
+    forward_kinematics_prepared_uhp forward_kinematics_prepared_ups:
+        |h, a| h.forward_kinematics(&a.base.pose, &a.forces, &a.start);
+}
+
+/// What prepares them.
+#[unsafe(no_mangle)]
+pub extern "C" fn prepared_uhp(model: &Uhp, prepared: &mut PreparedUhp) {
+    *prepared = model.clone().prepared();
+}
+
+/// The same for legs of the type UPS.
+#[unsafe(no_mangle)]
+pub extern "C" fn prepared_ups(model: &Ups, prepared: &mut PreparedUps) {
+    *prepared = model.clone().prepared();
+}
+
+/// `double single: |arguments| call` without a model.
+macro_rules! conversions {
+    ($($double:ident $single:ident: |$a:ident| $call:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $double($a: &Arguments<f64>) {
+            core::hint::black_box($call);
+        }
+
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $single($a: &Arguments<f32>) {
+            core::hint::black_box($call);
+        }
+    )*};
+}
+
+conversions! {
+    pose_from_angles pose_from_angles_f32: |a| Pose::from_paper_angles(a.wrench.force_n, a.wrench.moment_n_m.into());
+    pose_from_matrix pose_from_matrix_f32: |a| Pose::from_rotation_matrix(a.wrench.force_n, a.start.rotation.matrix()).is_ok();
+    pose_from_quaternion pose_from_quaternion_f32: |a| {
+        Pose::from_quaternion(a.wrench.force_n, [a.forces[0], a.forces[1], a.forces[2], a.forces[3]]).is_ok()
+    };
+    angles_of_rotation angles_of_rotation_f32: |a| angles::from_rotation(&a.start.rotation);
+    angle_rates angle_rates_f32: |a| angles::angle_rates(a.wrench.force_n.into(), a.wrench.moment_n_m).is_ok();
+    angular_velocity angular_velocity_f32:
+        |a| angles::angular_velocity(a.wrench.force_n.into(), a.wrench.moment_n_m.into());
+    angular_acceleration angular_acceleration_f32: |a| angles::angular_acceleration(
+        a.wrench.force_n.into(),
+        a.wrench.moment_n_m.into(),
+        a.start.position_m.into(),
+    );
+    rotation_vector rotation_vector_f32: |a| rotation_vector::rotation(&a.wrench.force_n);
+    rotation_vector_motion rotation_vector_motion_f32:
+        |a| rotation_vector::angular_motion(&a.wrench.force_n, &a.wrench.moment_n_m, &a.start.position_m);
+    rotation_vector_rate rotation_vector_rate_f32:
+        |a| rotation_vector::rate_within_step(&a.wrench.force_n, &a.wrench.moment_n_m);
+    orthonormalised orthonormalised_f32: |a| rotation_vector::orthonormalised(&a.start.rotation);
+}
+
 /// An unchecked call.
 #[unsafe(no_mangle)]
 pub extern "C" fn unchecked(poses: &[[f64; 3]; 2], rotations: &[[[f64; 3]; 3]; 2], rod_alignment: &mut [f64; 6]) {
@@ -115,8 +186,24 @@ pub extern "C" fn unchecked(poses: &[[f64; 3]; 2], rotations: &[[[f64; 3]; 3]; 2
     kernels::RodAlignment::rod_alignment(&Uhp2016, base, from_base, platform, from_platform, rod_alignment);
 }
 
-/// What the check must find.
+/// What the search must find: a panic.
 #[unsafe(no_mangle)]
 pub extern "C" fn can_panic(numbers: &[f64; 6], index: usize) -> f64 {
     numbers[index]
+}
+
+/// What the search must find: a loop that ends when the numbers say so.
+#[unsafe(no_mangle)]
+pub extern "C" fn can_run_on(number: f64, factor: f64) -> f64 {
+    let mut number = number;
+    while number > 1.0 {
+        number *= factor;
+    }
+    number
+}
+
+/// What the search must find: a call of whatever comes.
+#[unsafe(no_mangle)]
+pub extern "C" fn can_lead_anywhere(call: extern "C" fn(f64) -> f64, number: f64) -> f64 {
+    call(number) + 1.0
 }
