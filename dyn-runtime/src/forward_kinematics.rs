@@ -26,7 +26,8 @@ pub struct ForwardKinematics<T: Real = f64> {
     /// Newton steps that led there.
     pub iterations: u32,
     /// Largest difference between a length given and a length at the pose, m; at most
-    /// [`Real::LENGTH_RESIDUAL_M`].
+    /// [`Real::LENGTH_RESIDUAL_M`]. It holds for the pose as seen from the base; added to the position of a base far from O's
+    /// origin, the pose in O is rounded to that distance's digits.
     pub residual_m: T,
 }
 
@@ -38,9 +39,13 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// pose in a loop, the base's pose composed with the platform's home at switch-on. `docs/control.md` shows
     /// from how far the paper's platform finds its pose.
     ///
+    /// **Wrong lengths have a pose too**, as a rule, and it is returned: compare lengths with the stroke before and the pose with
+    /// the last one after, as `docs/control-loop.md` does.
+    ///
     /// # Errors
     /// See [`Hexapod`] for poses and lengths that are refused. [`Error::OutOfReach`] or
-    /// [`Error::RodPerpendicular`] where the start, or every pose towards the lengths, is out of this leg's reach;
+    /// [`Error::RodPerpendicular`] where the start, or every pose towards the lengths, is out of this leg's reach (the length that is
+    /// wrong may be another leg's);
     /// [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
     /// [`Error::NoConvergence`] otherwise.
     ///
