@@ -24,7 +24,7 @@ enum dyn_status
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // The outputs are written and finite.
+  // The outputs are written. They are finite, but for margins and limits, where INFINITY is no limit.
   DYN_STATUS_OK = 0,
   // A pointer that must not be is null.
   DYN_STATUS_NULL_POINTER = 1,
@@ -32,7 +32,7 @@ enum dyn_status
   DYN_STATUS_WRONG_STRUCT_SIZE = 2,
   // The model's `kind` is none that this library was built with.
   DYN_STATUS_UNKNOWN_MODEL = 3,
-  // An element of an input is NaN or infinite; `info.input` says of which.
+  // An element of an input is NaN or infinite: `info.input` and `info.element` say which, `info.leg` for what legs have.
   DYN_STATUS_NON_FINITE = 4,
   // A rotation matrix is not a rotation: `info.value` is the largest element of |R^T R - 1|. Where it is within
   // `info.limit` the matrix is a reflection.
@@ -50,7 +50,8 @@ enum dyn_status
   DYN_STATUS_NON_FINITE_RESULT = 10,
   // The angles have no rates: `info.value` is cos c2, of a magnitude below `info.limit`.
   DYN_STATUS_GIMBAL_LOCK = 11,
-  // A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
+  // A parameter is not physical: `info.input`, `info.element` and `info.leg` say which, `info.value` is what it is, 0 where
+  // that is not finite.
   DYN_STATUS_INVALID_PARAMETER = 12,
   // No pose found with the given actuator lengths: a length still differs by `info.value`, m.
   DYN_STATUS_NO_CONVERGENCE = 13,
@@ -60,6 +61,10 @@ enum dyn_status
   DYN_STATUS_OTHER = 15,
   // The model does not carry what was asked for: the platform file does not give it, or parameters come at run time.
   DYN_STATUS_NOT_IN_MODEL = 16,
+  // A limit is NaN, or an angle is limited whose direction at home is not given: `info.quantity` and `info.leg` say which.
+  DYN_STATUS_INVALID_LIMIT = 17,
+  // The voice coil of leg `info.leg` has a force constant of 0 or not finite, or a limit that is negative or NaN.
+  DYN_STATUS_INVALID_COIL = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -107,6 +112,10 @@ enum dyn_input
   DYN_INPUT_ACTUATOR_LENGTH = 13,
   // The rates of dyn_platform_velocity.
   DYN_INPUT_ACTUATOR_VELOCITY = 14,
+  // The rates of angles of a conversion.
+  DYN_INPUT_ANGLE_RATES = 15,
+  // The angular velocity of a conversion.
+  DYN_INPUT_ANGULAR_VELOCITY = 16,
   // `base_point`
   DYN_INPUT_BASE_POINT = 100,
   // `actuator_axis`
@@ -368,9 +377,11 @@ typedef struct dyn_info {
   size_t struct_size;
   // The input to blame, or DYN_INPUT_NONE.
   dyn_input input;
-  // The first leg to blame, 0 to 5, or -1.
+  // Index of its first element to blame, row-major, or -1.
+  int32_t element;
+  // The first leg to blame, 0 to 5 (platform files count from 1), or -1.
   int32_t leg;
-  // The quantity beyond its limit, a `DYN_QUANTITY_...`, or -1.
+  // The quantity whose limit it is about, a `DYN_QUANTITY_...`, or -1.
   int32_t quantity;
   // A number that says how far off, see the status; else 0.
   dyn_real value;
@@ -744,9 +755,6 @@ dyn_status dyn_check_model(const struct dyn_model *model,
 
 // Name of the platform behind DYN_MODEL_KIND_BAKED, as in its platform file: a static string.
 const char *dyn_baked_platform_name(void);
-
-// Panics where `index` is too large, and calls itself: the search must find both, else it finds nothing.
-uint8_t dyn_control_case(size_t index);
 
 // Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 //

@@ -58,7 +58,7 @@ pub unsafe extern "C" fn dyn_angular_velocity(
     unsafe {
         convert(angular_velocity, info, || {
             let angles = finite(array(angles)?, InputName::Angles)?;
-            let rates = finite(array(rates)?, InputName::Angles)?;
+            let rates = finite(array(rates)?, InputName::AngleRates)?;
             let velocity: [Real; 3] = angles::angular_velocity(angles, rates).into();
             finite_result(velocity)
         })
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn dyn_angle_rates(
     unsafe {
         convert(rates, info, || {
             let angles = finite(array(angles)?, InputName::Angles)?;
-            let velocity = finite(array(angular_velocity)?, InputName::Angles)?;
+            let velocity = finite(array(angular_velocity)?, InputName::AngularVelocity)?;
             let rates = angles::angle_rates(angles, Vector3::from(velocity)).map_err(|lock| Refusal {
                 value: lock.cos_c2 as Real,
                 limit: <Real as dyn_runtime::Real>::MIN_COS_C2,
@@ -95,13 +95,18 @@ fn rows(rotation: &Rotation3<Real>) -> [[Real; 3]; 3] {
 }
 
 fn finite<const N: usize>(numbers: [Real; N], input: InputName) -> Result<[Real; N], Refusal> {
-    if all_finite(&numbers) { Ok(numbers) } else { Err(Refusal::of_input(Status::NonFinite, input)) }
+    match numbers.iter().position(|number| !number.is_finite()) {
+        None => Ok(numbers),
+        Some(element) => {
+            Err(Refusal { element: element as i32, ..Refusal::of_input(Status::NonFinite, input) })
+        }
+    }
 }
 
 fn finite_result<const N: usize>(numbers: [Real; N]) -> Result<[Real; N], Refusal> {
-    if all_finite(&numbers) { Ok(numbers) } else { Err(Refusal::of(Status::NonFiniteResult)) }
-}
-
-fn all_finite(numbers: &[Real]) -> bool {
-    numbers.iter().all(|number| number.is_finite())
+    if numbers.iter().all(|number| number.is_finite()) {
+        Ok(numbers)
+    } else {
+        Err(Refusal::of(Status::NonFiniteResult))
+    }
 }

@@ -13,7 +13,7 @@ use crate::real::Real;
 #[repr(i32)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Status {
-    /// The outputs are written and finite.
+    /// The outputs are written. They are finite, but for margins and limits, where INFINITY is no limit.
     Ok = 0,
     /// A pointer that must not be is null.
     NullPointer = 1,
@@ -21,7 +21,7 @@ pub enum Status {
     WrongStructSize = 2,
     /// The model's `kind` is none that this library was built with.
     UnknownModel = 3,
-    /// An element of an input is NaN or infinite; `info.input` says of which.
+    /// An element of an input is NaN or infinite: `info.input` and `info.element` say which, `info.leg` for what legs have.
     NonFinite = 4,
     /// A rotation matrix is not a rotation: `info.value` is the largest element of |R^T R - 1|. Where it is within
     /// `info.limit` the matrix is a reflection.
@@ -39,7 +39,8 @@ pub enum Status {
     NonFiniteResult = 10,
     /// The angles have no rates: `info.value` is cos c2, of a magnitude below `info.limit`.
     GimbalLock = 11,
-    /// A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
+    /// A parameter is not physical: `info.input`, `info.element` and `info.leg` say which, `info.value` is what it is, 0 where
+    /// that is not finite.
     InvalidParameter = 12,
     /// No pose found with the given actuator lengths: a length still differs by `info.value`, m.
     NoConvergence = 13,
@@ -49,6 +50,10 @@ pub enum Status {
     Other = 15,
     /// The model does not carry what was asked for: the platform file does not give it, or parameters come at run time.
     NotInModel = 16,
+    /// A limit is NaN, or an angle is limited whose direction at home is not given: `info.quantity` and `info.leg` say which.
+    InvalidLimit = 17,
+    /// The voice coil of leg `info.leg` has a force constant of 0 or not finite, or a limit that is negative or NaN.
+    InvalidCoil = 18,
 }
 
 /// An input of a call or a parameter of a model, as `info.input` names it.
@@ -87,6 +92,10 @@ pub enum InputName {
     ActuatorLength = 13,
     /// The rates of dyn_platform_velocity.
     ActuatorVelocity = 14,
+    /// The rates of angles of a conversion.
+    AngleRates = 15,
+    /// The angular velocity of a conversion.
+    AngularVelocity = 16,
     /// `base_point`
     BasePoint = 100,
     /// `actuator_axis`
@@ -143,9 +152,11 @@ pub struct Info {
     pub struct_size: usize,
     /// The input to blame, or DYN_INPUT_NONE.
     pub input: InputName,
-    /// The first leg to blame, 0 to 5, or -1.
+    /// Index of its first element to blame, row-major, or -1.
+    pub element: i32,
+    /// The first leg to blame, 0 to 5 (platform files count from 1), or -1.
     pub leg: i32,
-    /// The quantity beyond its limit, a `DYN_QUANTITY_...`, or -1.
+    /// The quantity whose limit it is about, a `DYN_QUANTITY_...`, or -1.
     pub quantity: i32,
     /// A number that says how far off, see the status; else 0.
     pub value: Real,
@@ -158,6 +169,7 @@ pub struct Info {
 pub(crate) struct Refusal {
     pub status: Status,
     pub input: InputName,
+    pub element: i32,
     pub leg: i32,
     pub quantity: i32,
     pub value: Real,
@@ -167,7 +179,7 @@ pub(crate) struct Refusal {
 impl Refusal {
     /// Without details.
     pub fn of(status: Status) -> Self {
-        Self { status, input: InputName::None, leg: -1, quantity: -1, value: 0.0, limit: 0.0 }
+        Self { status, input: InputName::None, element: -1, leg: -1, quantity: -1, value: 0.0, limit: 0.0 }
     }
 
     /// Because of an input.
@@ -180,10 +192,16 @@ impl Refusal {
         Self { leg: leg as i32, ..Self::of(status) }
     }
 
+    fn of_quantity(status: Status, quantity: dyn_runtime::Quantity, leg: Option<usize>) -> Self {
+        let refusal = leg.map_or(Self::of(status), |leg| Self::of_leg(status, leg));
+        Self { quantity: Quantity::from(quantity) as i32, ..refusal }
+    }
+
     pub fn info(&self) -> Info {
         Info {
             struct_size: size_of::<Info>(),
             input: self.input,
+            element: self.element,
             leg: self.leg,
             quantity: self.quantity,
             value: self.value,
@@ -215,14 +233,22 @@ impl From<ParameterError> for Refusal {
             | InputName::Gravity => -1,
             _ => error.element as i32,
         };
-        Self { leg, value, ..Self::of_input(Status::InvalidParameter, input) }
+        let element = error.element as i32;
+        Self { element, leg, value, ..Self::of_input(Status::InvalidParameter, input) }
     }
 }
 
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         match error {
-            Error::NonFinite { input } => Self::of_input(Status::NonFinite, input.into()),
+            Error::NonFinite { input, element } => {
+                let (of_legs, element) = (
+                    matches!(input, Input::ActuatorForce | Input::ActuatorLength | Input::ActuatorVelocity),
+                    element as i32,
+                );
+                let leg = if of_legs { element } else { -1 };
+                Self { element, leg, ..Self::of_input(Status::NonFinite, input.into()) }
+            }
             Error::NotARotation { input, defect } => Self {
                 value: defect.deviation as Real,
                 limit: <Real as dyn_runtime::Real>::MAX_ROTATION_DEVIATION,
@@ -239,11 +265,11 @@ impl From<Error> for Refusal {
             Error::NoConvergence { residual_m, .. } => {
                 Self { value: residual_m as Real, ..Self::of(Status::NoConvergence) }
             }
-            Error::BeyondLimit { quantity, leg, margin } => Self {
-                quantity: Quantity::from(quantity) as i32,
-                value: margin as Real,
-                ..leg.map_or(Self::of(Status::BeyondLimit), |leg| Self::of_leg(Status::BeyondLimit, leg))
-            },
+            Error::BeyondLimit { quantity, leg, margin } => {
+                Self { value: margin as Real, ..Self::of_quantity(Status::BeyondLimit, quantity, leg) }
+            }
+            Error::InvalidLimit { quantity, leg } => Self::of_quantity(Status::InvalidLimit, quantity, leg),
+            Error::InvalidCoil { leg } => Self::of_leg(Status::InvalidCoil, leg),
             Error::NonFiniteResult => Self::of(Status::NonFiniteResult),
             _ => Self::of(Status::Other),
         }
@@ -282,7 +308,8 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
     (Status::NonFinite, c"an input is NaN or infinite: keep the previous value or stop the controller"),
     (
         Status::NotARotation,
-        c"a rotation matrix is not a rotation: orthonormalise it, and check that its columns are the body's axes",
+        c"not a rotation: orthonormalise the matrix and check that its columns are the body's axes, or divide the quaternion \
+          by its norm",
     ),
     (
         Status::InvalidModel,
@@ -311,9 +338,21 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
     ),
     (
         Status::NoConvergence,
-        c"no pose found with these actuator lengths: start nearer to it, and check that the lengths are d in metres",
+        c"no pose found with these actuator lengths: start nearer to it, and check that every length is d, in metres, in the \
+          order of the platform file",
     ),
-    (Status::BeyondLimit, c"a quantity is beyond its limit: bring the platform nearer to its home"),
+    (
+        Status::BeyondLimit,
+        c"a quantity is beyond its limit: bring the platform nearer to its home, move it more slowly, ask for less force",
+    ),
+    (
+        Status::InvalidLimit,
+        c"a limit is NaN, or an angle is limited without its direction at home: start from dyn_model_limits, INFINITY is none",
+    ),
+    (
+        Status::InvalidCoil,
+        c"a voice coil has a force constant of 0 or not finite, or a negative limit: fill in all six, in N/A and A",
+    ),
     (
         Status::NotInModel,
         c"the model does not carry this: give it in the platform file and bake that, or fill the struct in by hand",
@@ -345,6 +384,8 @@ const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
     (InputName::ReferenceVelocity, c"reference_velocity"),
     (InputName::ActuatorLength, c"actuator_length"),
     (InputName::ActuatorVelocity, c"actuator_velocity"),
+    (InputName::AngleRates, c"angle_rates"),
+    (InputName::AngularVelocity, c"angular_velocity"),
     (InputName::BasePoint, c"base_point"),
     (InputName::ActuatorAxis, c"actuator_axis"),
     (InputName::PlatformPoint, c"platform_point"),

@@ -35,13 +35,39 @@ pub fn of_platform(program: &Program, platform: &Platform) -> Option<Limits> {
         home_direction_in_platform: in_base.map(turned),
         force_constant: every(file.force_constant),
         maximum_current: std::array::from_fn(|leg| {
-            Some(file.maximum_force[leg]? / file.force_constant[leg]?)
+            Some(current(file.maximum_force[leg]?, file.force_constant[leg]?))
         }),
     })
+}
+
+/// The current of a force, rounded towards 0 where the coil would give more than that force otherwise, in single precision too.
+fn current(force: f64, constant: f64) -> f64 {
+    let mut current = force / constant;
+    while (current as f32 * constant as f32).abs() > (force as f32).abs() {
+        current = (current as f32).abs().next_down().copysign(current as f32).into();
+    }
+    while (current * constant).abs() > force.abs() {
+        current = current.abs().next_down().copysign(current);
+    }
+    current
 }
 
 /// What all legs have.
 fn every(limit: Limit) -> Option<[f64; 6]> {
     let given: Vec<f64> = limit.into_iter().flatten().collect();
     given.try_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn no_current_makes_more_than_its_force() {
+        assert_eq!(super::current(200.0, 25.0), 8.0);
+        for k in 1..2000 {
+            let (force, constant) = (f64::from(k) * 0.37, 17.0 + f64::from(k) * 0.013);
+            let current = super::current(force, constant);
+            assert!(current * constant <= force && (1.0 - current * constant / force) < 3e-7);
+            assert!(current as f32 * constant as f32 <= force as f32, "{force} N, {constant} N/A");
+        }
+    }
 }

@@ -263,6 +263,17 @@ fn blanks_after_commas_are_no_part_of_names() {
     assert!(text.contains("--functions rod_alignment,bias --runtime payload,gravity"), "{text:.300}");
 }
 
+/// Outputs in the middle and at the end of a function's, which are others by their position.
+#[test]
+fn some_outputs_of_a_function_are_examined_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let functions = "rod_alignment,control:actuator_length:jacobian_dp:total_bias,matrices:coriolis_matrix_b";
+    let options = ["--functions", functions, "--states", "20"];
+    let result = dyn_gen(folder.path(), &[&["generate", PLATFORM, "-o", "model.rs"][..], &options].concat());
+    assert_eq!(code(&result), 0, "{}", said(&result));
+    assert_eq!(entries(folder.path()), ["model.rs"]);
+}
+
 #[test]
 fn init_in_a_crate_puts_the_model_where_its_sources_are() {
     let folder = tempfile::tempdir().unwrap();

@@ -63,6 +63,8 @@ pub(crate) fn halves<T: Real>(stacked: &[T; 6]) -> (Vector3<T>, Vector3<T>) {
 /// Whether no element is NaN or infinite, for numbers and arrays of any depth.
 pub(crate) trait AllFinite {
     type Number: Real;
+    /// Numbers in it.
+    const COUNT: usize;
 
     /// Zero, or NaN where an element is not finite: two operations for each element and no comparison.
     fn vanishing(&self) -> Self::Number;
@@ -71,22 +73,36 @@ pub(crate) trait AllFinite {
     fn all_finite(&self) -> bool {
         self.vanishing() == <Self::Number as Scalar>::constant(0.0)
     }
+
+    /// Index of the first number, row-major, that is NaN or infinite.
+    fn first_not_finite(&self) -> Option<usize>;
 }
 
 impl<T: Real> AllFinite for T {
     type Number = T;
+    const COUNT: usize = 1;
 
     #[inline]
     fn vanishing(&self) -> T {
         *self * T::zero()
     }
+
+    fn first_not_finite(&self) -> Option<usize> {
+        (!self.is_finite()).then_some(0)
+    }
 }
 
 impl<Element: AllFinite, const N: usize> AllFinite for [Element; N] {
     type Number = Element::Number;
+    const COUNT: usize = N * Element::COUNT;
 
     #[inline]
     fn vanishing(&self) -> Element::Number {
         self.iter().fold(<Element::Number as Scalar>::constant(0.0), |sum, element| sum + element.vanishing())
+    }
+
+    fn first_not_finite(&self) -> Option<usize> {
+        let place = |(k, element): (usize, &Element)| Some(k * Element::COUNT + element.first_not_finite()?);
+        self.iter().enumerate().find_map(place)
     }
 }

@@ -159,7 +159,12 @@ fn described<T: Real>(matrix: &Matrix3<T>) -> NotARotation {
 /// Passes an input on if all its elements are finite.
 #[inline]
 pub(crate) fn finite<Array: AllFinite>(input: Input, array: Array) -> Result<Array, Error> {
-    if array.all_finite() { Ok(array) } else { Err(Error::NonFinite { input }) }
+    if array.all_finite() { Ok(array) } else { Err(non_finite(input, &array)) }
+}
+
+#[cold]
+fn non_finite<Array: AllFinite>(input: Input, array: &Array) -> Error {
+    Error::NonFinite { input, element: array.first_not_finite().unwrap_or(0) }
 }
 
 /// Passes the rest of a call if its outputs are finite.

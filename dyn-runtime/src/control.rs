@@ -37,8 +37,8 @@ pub struct Control<T = f64> {
 }
 
 impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
-    /// Lengths, rates, J_dp, M_p, bias and the forces F for `platform_acceleration`, in one call that costs
-    /// about 1.6 times inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
+    /// Lengths, rates, J_dp, M_p, bias and the forces F for `platform_acceleration`, in one call of about
+    /// 1.6 times the operations of inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
     /// accelerations of both bodies and on the external wrench.
     ///
     /// # Errors
@@ -117,7 +117,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// as they stand, at the actual lengths and rates. No matrix is formed. With `v_r = v_p` it is
     /// [`inverse_dynamics`](Self::inverse_dynamics).
     ///
-    /// With `s = v_p - v_r`, forces `F - J_dp^-1 K s` (the controller's share, as a wrench `-K s` on the
+    /// With `s = v_p - v_r`, forces `F - J_dp^-T K s` (the controller's share, as a wrench `-K s` on the
     /// platform: `J_dp^T F_s = -K s`) leave `M_p s' + C_p s = -K s`, in which `s^T M_p s` falls at the rate
     /// `2 s^T K s` for any positive definite K. `v_r` is made of twists (`r'` and angular velocity in O), not of
     /// rates of angles. Depends on everything that inverse dynamics depends on.

@@ -42,7 +42,7 @@ impl<T: Real> VoiceCoils<T> {
     /// which cutting each current by itself would turn. That is no error: [`Currents::saturation`] alone tells.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] for forces; [`Error::InvalidModel`] for a force constant that is 0 or not finite
+    /// [`Error::NonFinite`] for forces; [`Error::InvalidCoil`] for a force constant that is 0 or not finite
     /// or a limit that is negative or NaN; [`Error::NonFiniteResult`] for a current too large to compute with.
     ///
     /// ```
@@ -63,7 +63,7 @@ impl<T: Real> VoiceCoils<T> {
             !constant.is_finite() || *constant == T::zero() || !(T::zero()..).contains(limit)
         };
         if let Some(leg) = coils().position(is_no_coil) {
-            return Err(Error::InvalidModel { leg });
+            return Err(Error::InvalidCoil { leg });
         }
         let mut most = T::one();
         let mut saturated = None;
@@ -81,10 +81,10 @@ impl<T: Real> VoiceCoils<T> {
         for (((current, force), wanted), (constant, limit)) in
             current.iter_mut().zip(&mut force).zip(&wanted).zip(coils())
         {
-            let unlimited = *wanted * factor / *constant;
-            // Rounding may put the saturated coil one unit of the last place beyond.
-            *current = unlimited.max(-*limit).min(*limit);
-            *force = *wanted * factor;
+            // Rounding may put the saturated coil one unit of the last place beyond, and its force too.
+            let possible = (*constant * *limit).abs();
+            *current = (*wanted * factor / *constant).max(-*limit).min(*limit);
+            *force = (*wanted * factor).max(-possible).min(possible);
         }
         check::finite_result(current.all_finite() & force.all_finite())?;
         let saturation = saturated.map(|leg| Saturation { factor, leg });

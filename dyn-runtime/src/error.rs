@@ -45,6 +45,8 @@ pub enum Error {
     NonFinite {
         /// The input.
         input: Input,
+        /// Index of the first such element, row-major: of what legs have it is the leg, 0 to 5.
+        element: usize,
     },
     /// A rotation matrix is not a rotation.
     NotARotation {
@@ -77,6 +79,18 @@ pub enum Error {
         /// [`Real::MIN_RECIPROCAL_CONDITION`](crate::Real::MIN_RECIPROCAL_CONDITION).
         reciprocal_condition: f64,
     },
+    /// A limit that is none: NaN, or an angle that is limited without the direction at home that it is counted from.
+    InvalidLimit {
+        /// What it limits.
+        quantity: Quantity,
+        /// Index of the first such leg, 0 to 5; none for conditioning.
+        leg: Option<usize>,
+    },
+    /// A voice coil that is none: its force constant is 0 or not finite, or its limit negative or NaN.
+    InvalidCoil {
+        /// Index of the first such leg, 0 to 5.
+        leg: usize,
+    },
     /// Forward kinematics found no pose with the given actuator lengths from where it started.
     NoConvergence {
         /// Steps that were made.
@@ -90,7 +104,7 @@ pub enum Error {
         quantity: Quantity,
         /// Index, 0 to 5, of the leg that is farthest beyond; none for conditioning.
         leg: Option<usize>,
-        /// Distance to the limit in the quantity's unit, negative because beyond; NaN for a limit that is none.
+        /// Distance to the limit in the quantity's unit, negative because beyond.
         margin: f64,
     },
     /// Every input is finite, yet the result is not: numbers too large to compute with, or a model whose
@@ -151,9 +165,11 @@ impl fmt::Display for Input {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::NonFinite { input } => {
-                write!(f, "{input}: NaN or infinite element; keep the previous value or stop the controller")
-            }
+            Self::NonFinite { input, element } => write!(
+                f,
+                "{input}: element {element} (counted from 0, row by row) is NaN or infinite; keep the previous value or \
+                 stop the controller"
+            ),
             Self::NotARotation { input, defect } => write!(f, "{input}: {defect}"),
             Self::InvalidModel { leg } => write!(
                 f,
@@ -178,27 +194,48 @@ impl fmt::Display for Error {
                 "the Jacobian J_dp is singular (reciprocal condition number {reciprocal_condition:.1e}): no actuator \
                  forces hold every wrench in this pose; bring the platform nearer to its home"
             ),
+            Self::InvalidLimit { quantity, leg } => {
+                let (name, _) = quantity.name_and_unit();
+                of_leg(f, leg)?;
+                write!(
+                    f,
+                    "the limit of {name} is NaN, or an angle is limited and its direction at home is not given; start from \
+                     `limits()` of the model or `Limits::none()`, where infinity is no limit"
+                )
+            }
+            Self::InvalidCoil { leg } => {
+                of_leg(f, Some(leg))?;
+                f.write_str(
+                    "the voice coil has a force constant of 0 or not finite, or a negative limit; fill in all six, in N/A and A",
+                )
+            }
             Self::NoConvergence { iterations, residual_m } => write!(
                 f,
                 "no pose found with these actuator lengths: after {iterations} steps a length still differs by \
-                 {residual_m:.1e} m; start nearer to the pose, and check that the lengths are d in metres"
+                 {residual_m:.1e} m; start nearer to the pose, and check that every length is d, in metres, in the order of the platform file"
             ),
             Self::BeyondLimit { quantity, leg, margin } => {
-                match leg {
-                    Some(leg) => write!(f, "leg {} (index {leg}): ", leg + 1)?,
-                    None => f.write_str("all legs together: ")?,
-                }
                 let (name, unit) = quantity.name_and_unit();
-                write!(
-                    f,
-                    "{name} is beyond its limit by {:.3e}{unit}; bring the platform nearer to its home",
-                    -margin
-                )
+                let remedy = match quantity {
+                    Quantity::ActuatorForce => "ask for less acceleration",
+                    Quantity::ActuatorVelocity => "move the platform more slowly",
+                    _ => "bring the platform nearer to its home",
+                };
+                of_leg(f, leg)?;
+                write!(f, "{name} is beyond its limit by {:.3e}{unit}; {remedy}", -margin)
             }
             Self::NonFiniteResult => f.write_str(
                 "the result is not finite although every input is: check units and the model's parameters",
             ),
         }
+    }
+}
+
+/// The subject of a message.
+fn of_leg(f: &mut fmt::Formatter<'_>, leg: Option<usize>) -> fmt::Result {
+    match leg {
+        Some(leg) => write!(f, "leg {} (index {leg}): ", leg + 1),
+        None => f.write_str("all legs together: "),
     }
 }
 

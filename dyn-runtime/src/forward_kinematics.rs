@@ -43,11 +43,9 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// the last one after, as `docs/control-loop.md` does.
     ///
     /// # Errors
-    /// See [`Hexapod`] for poses and lengths that are refused. [`Error::OutOfReach`] or
-    /// [`Error::RodPerpendicular`] where the start, or every pose towards the lengths, is out of this leg's reach (the length that is
-    /// wrong may be another leg's);
-    /// [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
-    /// [`Error::NoConvergence`] otherwise.
+    /// See [`Hexapod`] for poses and lengths that are refused; [`Error::OutOfReach`] and [`Error::RodPerpendicular`] are about
+    /// the start. [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
+    /// [`Error::NoConvergence`] otherwise, also where no leg could reach the poses that the lengths lead to.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::Vector3;

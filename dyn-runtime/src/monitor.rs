@@ -103,10 +103,49 @@ impl<T: Real> Limits<T> {
             minimum_condition_bound: -infinite,
         }
     }
+
+    /// Every limit is a number or infinite, and every limited angle has a direction to be counted from.
+    fn are_limits(&self) -> Result<(), Error> {
+        let is_nan = |limit: &T| limit.partial_cmp(limit).is_none();
+        let bounds = [
+            (Quantity::ActuatorLength, &self.minimum_length_m),
+            (Quantity::ActuatorLength, &self.maximum_length_m),
+            (Quantity::ActuatorVelocity, &self.maximum_velocity_m_s),
+            (Quantity::ActuatorForce, &self.maximum_force_n),
+            (Quantity::HookeJointAngle, &self.maximum_hooke_joint_angle_rad),
+            (Quantity::PlatformJointAngle, &self.maximum_platform_joint_angle_rad),
+        ];
+        for (quantity, limit) in bounds {
+            if let Some(leg) = limit.iter().position(is_nan) {
+                return Err(Error::InvalidLimit { quantity, leg: Some(leg) });
+            }
+        }
+        if is_nan(&self.minimum_condition_bound) {
+            return Err(Error::InvalidLimit { quantity: Quantity::Conditioning, leg: None });
+        }
+        let angles = [
+            (Quantity::HookeJointAngle, &self.maximum_hooke_joint_angle_rad, &self.home_direction_in_base),
+            (
+                Quantity::PlatformJointAngle,
+                &self.maximum_platform_joint_angle_rad,
+                &self.home_direction_in_platform,
+            ),
+        ];
+        for (quantity, limit, home) in angles {
+            let is_lost = |(limit, direction): (&T, &[T; 3])| {
+                let square = direction.iter().fold(T::zero(), |sum, x| sum + *x * *x);
+                limit.is_finite() && !(square > T::zero() && square.is_finite())
+            };
+            if let Some(leg) = limit.iter().zip(home).position(is_lost) {
+                return Err(Error::InvalidLimit { quantity, leg: Some(leg) });
+            }
+        }
+        Ok(())
+    }
 }
 
 impl<T: Real> Monitor<T> {
-    /// Whether every quantity is within its limit.
+    /// Whether every quantity is within its limit. Margins that [`Hexapod::monitor`] gives are numbers or infinite.
     ///
     /// # Errors
     /// [`Error::BeyondLimit`] for the first quantity that is not, with its worst leg.
@@ -129,7 +168,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// that the coils give, [`Currents::actuator_force_n`](crate::current::Currents::actuator_force_n).
     ///
     /// # Errors
-    /// See [`Hexapod`].
+    /// See [`Hexapod`]; besides, [`Error::InvalidLimit`] for a limit that is NaN, and for an angle that is limited where its
+    /// direction at home is 0 or not finite.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::{Vector3, Vector6};
@@ -154,6 +194,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::LegKinematics<T> + kernels::JacobianDp<T>,
     {
+        limits.are_limits()?;
         let forces: [T; 6] = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let (b, p) = arrays(base, platform);
         self.check_states(&b, &p)?;
@@ -193,8 +234,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             let mut worst = Margin { quantity, leg: Some(0), margin: margin(0) };
             for leg in 1..6 {
                 let margin = margin(leg);
-                // A limit that is not a number shows.
-                if margin < worst.margin || margin.partial_cmp(&margin).is_none() {
+                if margin < worst.margin {
                     worst = Margin { quantity, leg: Some(leg), margin };
                 }
             }
@@ -208,7 +248,11 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
                 limit[leg]
             }
         };
-        let conditioning = check::jacobian_condition_bound(&jacobian_dp) - limits.minimum_condition_bound;
+        let conditioning = if limits.minimum_condition_bound == T::constant(f64::NEG_INFINITY) {
+            T::constant(f64::INFINITY)
+        } else {
+            check::jacobian_condition_bound(&jacobian_dp) - limits.minimum_condition_bound
+        };
         Ok(Monitor {
             margins: [
                 least(Quantity::ActuatorLength, &stroke),

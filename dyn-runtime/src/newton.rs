@@ -142,19 +142,17 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
         let turn_squared = sum(turn * turn);
         let most = T::constant(MAX_TURN_RAD);
         let mut share = if turn_squared > most * most { most / sqrt(turn_squared) } else { T::one() };
-        let mut refusal = None;
         for _ in 0..=MAX_HALVINGS {
             let part = P::splat(share);
             let position = mul_add(shift, part, from.position);
             let place = Place { position, rotation: turned_by(turn * part, &from.rotation) };
-            match self.actuators(&place, actuators) {
-                Ok(()) if actuators.residual < residual => return Ok(place),
-                Ok(()) => refusal = None,
-                Err(reason) => refusal = Some(reason),
+            // A leg that cannot reach a pose on the way is not to blame: the lengths lead there.
+            if self.actuators(&place, actuators).is_ok() && actuators.residual < residual {
+                return Ok(place);
             }
             share *= T::constant(0.5);
         }
-        Err(refusal.unwrap_or(no_convergence(iterations, residual)))
+        Err(no_convergence(iterations, residual))
     }
 
     /// The actuators at a pose.

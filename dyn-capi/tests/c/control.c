@@ -89,11 +89,11 @@ static void forward_kinematics(void)
     check(leads_nowhere(legs.actuator_length, &start) > 0, "steps that lead nowhere");
     legs.actuator_length[0] += 1;
     found.iterations = 77;
-    check(dyn_forward_kinematics(&model, &start, legs.actuator_length, &found, &info) != DYN_STATUS_OK, "one leg is a metre long");
+    check(dyn_forward_kinematics(&model, &start, legs.actuator_length, &found, &info) == DYN_STATUS_NO_CONVERGENCE, "one leg is a metre long");
     check(found.iterations == 77, "no pose, no output");
     legs.actuator_length[0] = (dyn_real)NAN;
     check(dyn_forward_kinematics(&model, &start, legs.actuator_length, &found, &info) == DYN_STATUS_NON_FINITE, "NaN");
-    check(info.input == DYN_INPUT_ACTUATOR_LENGTH, "which input");
+    check(info.input == DYN_INPUT_ACTUATOR_LENGTH && info.element == 0 && info.leg == 0, "which input");
     check(dyn_forward_kinematics(&model, &start, NULL, &found, &info) == DYN_STATUS_NULL_POINTER, "no lengths");
     found.struct_size = 0;
     check(dyn_forward_kinematics(&model, &start, velocity, &found, &info) == DYN_STATUS_WRONG_STRUCT_SIZE, "size");
@@ -123,6 +123,13 @@ static void limits(void)
     low.platform_position[2] = (dyn_real)0.382;
     check(dyn_check_limits(&model, &low, &all, &info) == DYN_STATUS_OK && info.quantity == -1, "within limits");
     check(dyn_check_limits(&model, &low, NULL, &info) == DYN_STATUS_NULL_POINTER, "no limits");
+    all.maximum_length[4] = (dyn_real)NAN;
+    check(dyn_check_limits(&model, &low, &all, &info) == DYN_STATUS_INVALID_LIMIT, "a limit that is NaN");
+    check(info.quantity == DYN_QUANTITY_ACTUATOR_LENGTH && info.leg == 4, "whose");
+    all.maximum_length[4] = (dyn_real)INFINITY;
+    all.maximum_hooke_joint_angle[1] = (dyn_real)0.1;
+    check(dyn_check_limits(&model, &low, &all, &info) == DYN_STATUS_INVALID_LIMIT, "an angle from no direction");
+    check(info.quantity == DYN_QUANTITY_HOOKE_JOINT_ANGLE && info.leg == 1, "of which joint");
 }
 
 static void currents(void)
@@ -142,7 +149,7 @@ static void currents(void)
     check(result.current[0] == 2 && result.actuator_force[1] == -10, "all forces scaled alike");
     coils.force_constant[3] = 0;
     result.factor = 77;
-    check(dyn_currents(&coils, force, &result, &info) == DYN_STATUS_INVALID_MODEL && info.leg == 3, "a coil without force");
+    check(dyn_currents(&coils, force, &result, &info) == DYN_STATUS_INVALID_COIL && info.leg == 3, "a coil without force");
     check(result.factor == 77, "no currents, no output");
 }
 

@@ -111,11 +111,7 @@ impl<'a> Comparison<'a> {
         names: &'a [String],
         expected: &'a [Environment],
     ) -> Comparison<'a> {
-        let derived = functions
-            .iter()
-            .filter_map(|function| program.function(&function.graph.name))
-            .map(|function| program.flatten(function))
-            .collect();
+        let derived = functions.iter().filter_map(|function| chosen(program, &function.graph)).collect();
         let scale = |name: &'a String| {
             (name.as_str(), Scale::over(expected.iter().map(|values| values[name].as_slice())))
         };
@@ -195,6 +191,15 @@ impl<'a> Comparison<'a> {
         });
         (outputs, laws.collect())
     }
+}
+
+/// The function as derived, with the outputs of `generated` in their order: not all need be generated.
+fn chosen(program: &Program, generated: &Graph) -> Option<Graph> {
+    let mut derived = program.flatten(program.function(&generated.name)?);
+    let all = std::mem::take(&mut derived.outputs);
+    let of_name = |name: &str| all.iter().find(|output| output.symbol.name == name).cloned();
+    derived.outputs = generated.outputs.iter().filter_map(|output| of_name(&output.symbol.name)).collect();
+    Some(derived)
 }
 
 /// The outputs of a graph at the states of a batch.

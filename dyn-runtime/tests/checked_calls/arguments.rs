@@ -4,7 +4,9 @@ use dyn_runtime::Input::{self, *};
 use dyn_runtime::nalgebra::{Rotation3, SMatrix, Vector3, Vector6};
 use dyn_runtime::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 
-/// Arguments for any call, all numbers different.
+use crate::mock::ACTUATOR_LENGTH_M;
+
+/// Arguments for any call, all numbers different but those of the lengths, which are the mock's.
 #[derive(Clone)]
 pub struct Arguments {
     pub base: BaseMotion,
@@ -12,6 +14,9 @@ pub struct Arguments {
     pub platform_acceleration: Acceleration,
     pub actuator_force_n: Vector6<f64>,
     pub external_wrench: Wrench,
+    pub reference_velocity: Twist,
+    pub actuator_length_m: Vector6<f64>,
+    pub actuator_velocity_m_s: Vector6<f64>,
 }
 
 pub fn arguments() -> Arguments {
@@ -29,6 +34,9 @@ pub fn arguments() -> Arguments {
         platform_acceleration: Acceleration { linear_m_s2: v(9.0), angular_rad_s2: v(10.0) },
         actuator_force_n: Vector6::new(11.0, 11.1, 11.2, 11.3, 11.4, 11.5),
         external_wrench: Wrench { force_n: v(12.0), moment_n_m: v(13.0) },
+        reference_velocity: Twist { linear_m_s: v(14.0), angular_rad_s: v(15.0) },
+        actuator_length_m: Vector6::from(ACTUATOR_LENGTH_M),
+        actuator_velocity_m_s: Vector6::new(16.0, 16.1, 16.2, 16.3, 16.4, 16.5),
     }
 }
 
@@ -46,6 +54,9 @@ impl Arguments {
             PlatformAcceleration => flat(&[self.platform_acceleration.to_vector()]),
             ActuatorForce => flat(&[self.actuator_force_n]),
             ExternalWrench => flat(&[self.external_wrench.to_vector()]),
+            ReferenceVelocity => flat(&[self.reference_velocity.to_vector()]),
+            ActuatorLength => flat(&[self.actuator_length_m]),
+            ActuatorVelocity => flat(&[self.actuator_velocity_m_s]),
             _ => unreachable!("{input} is not in this table"),
         }
     }
@@ -61,7 +72,8 @@ impl Arguments {
             matrix[(element / 3, element % 3)] = value;
             *rotation = Rotation3::from_matrix_unchecked(matrix);
         };
-        let Self { base, platform, platform_acceleration, actuator_force_n, external_wrench } = &mut changed;
+        let Self { base, platform, platform_acceleration, actuator_force_n, external_wrench, .. } =
+            &mut changed;
         match input {
             BasePosition => base.pose.position_m[element] = value,
             BaseRotation => nine(&mut base.pose.rotation),
@@ -77,6 +89,12 @@ impl Arguments {
             }
             ActuatorForce => actuator_force_n[element] = value,
             ExternalWrench => six(&mut external_wrench.force_n, &mut external_wrench.moment_n_m),
+            ReferenceVelocity => {
+                let Twist { linear_m_s, angular_rad_s } = &mut changed.reference_velocity;
+                six(linear_m_s, angular_rad_s);
+            }
+            ActuatorLength => changed.actuator_length_m[element] = value,
+            ActuatorVelocity => changed.actuator_velocity_m_s[element] = value,
             _ => unreachable!("{input} is not in this table"),
         }
         changed

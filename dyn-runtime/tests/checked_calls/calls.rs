@@ -1,7 +1,8 @@
 //! One row per checked call.
 
 use dyn_runtime::Input::{self, *};
-use dyn_runtime::{Error, Hexapod};
+use dyn_runtime::current::VoiceCoils;
+use dyn_runtime::{Error, Hexapod, Limits};
 
 use crate::arguments::{Arguments, flat};
 use crate::mock::Mock;
@@ -27,7 +28,7 @@ const MOTIONS: &[Input] = &[
     PlatformVelocity,
     PlatformAcceleration,
 ];
-pub const ALL: &[Input] = &[
+const LOADED: &[Input] = &[
     BasePosition,
     BaseRotation,
     BaseVelocity,
@@ -37,6 +38,34 @@ pub const ALL: &[Input] = &[
     PlatformVelocity,
     PlatformAcceleration,
     ActuatorForce,
+    ExternalWrench,
+];
+/// Every input of any call.
+pub const ALL: &[Input] = &[
+    BasePosition,
+    BaseRotation,
+    BaseVelocity,
+    BaseAcceleration,
+    PlatformPosition,
+    PlatformRotation,
+    PlatformVelocity,
+    PlatformAcceleration,
+    ReferenceVelocity,
+    ActuatorForce,
+    ExternalWrench,
+    ActuatorLength,
+    ActuatorVelocity,
+];
+const PASSIVE: &[Input] = &[
+    BasePosition,
+    BaseRotation,
+    BaseVelocity,
+    BaseAcceleration,
+    PlatformPosition,
+    PlatformRotation,
+    PlatformVelocity,
+    PlatformAcceleration,
+    ReferenceVelocity,
     ExternalWrench,
 ];
 const INVERSE: &[Input] = &[
@@ -62,6 +91,7 @@ const FORWARD: &[Input] = &[
     ExternalWrench,
 ];
 
+/// Calls whose outputs are those of one function of the model.
 pub const CALLS: &[Call] = &[
     Call {
         name: "rod_alignment",
@@ -115,7 +145,7 @@ pub const CALLS: &[Call] = &[
     },
     Call {
         name: "generalised_forces",
-        inputs: ALL,
+        inputs: LOADED,
         run: |hexapod, a| {
             let f = hexapod.generalised_forces(
                 &a.base,
@@ -160,7 +190,7 @@ pub const CALLS: &[Call] = &[
     },
     Call {
         name: "ups_generalised_forces",
-        inputs: ALL,
+        inputs: LOADED,
         run: |hexapod, a| {
             let f = hexapod.ups_generalised_forces(
                 &a.base,
@@ -266,6 +296,39 @@ pub const CALLS: &[Call] = &[
         },
     },
     Call {
+        name: "control",
+        inputs: INVERSE,
+        run: |hexapod, a| {
+            let c = hexapod.control(&a.base, &a.platform, &a.platform_acceleration, &a.external_wrench)?;
+            let lengths = flat(&[c.actuator_length_m, c.actuator_velocity_m_s]);
+            let matrices = flat(&[c.jacobian_dp, c.mass_matrix_p]);
+            Ok([lengths, matrices, flat(&[c.total_bias, c.inverse_dynamics_n])].concat())
+        },
+    },
+    Call {
+        name: "passive_inverse_dynamics",
+        inputs: PASSIVE,
+        run: |hexapod, a| {
+            let (velocity, acceleration) = (&a.reference_velocity, &a.platform_acceleration);
+            Ok(flat(&[hexapod.passive_inverse_dynamics(
+                &a.base,
+                &a.platform,
+                velocity,
+                acceleration,
+                &a.external_wrench,
+            )?]))
+        },
+    },
+    Call {
+        name: "base_reaction",
+        inputs: INVERSE,
+        run: |hexapod, a| {
+            let reaction =
+                hexapod.base_reaction(&a.base, &a.platform, &a.platform_acceleration, &a.external_wrench)?;
+            Ok(flat(&[reaction.force_n, reaction.moment_n_m]))
+        },
+    },
+    Call {
         name: "forward_dynamics",
         inputs: FORWARD,
         run: |hexapod, a| {
@@ -283,6 +346,67 @@ pub const CALLS: &[Call] = &[
         },
     },
 ];
+
+/// Calls that compute something themselves from what the model gives.
+pub const COMPUTED: &[Call] = &[
+    Call {
+        name: "forward_kinematics",
+        inputs: &[BasePosition, BaseRotation, PlatformPosition, PlatformRotation, ActuatorLength],
+        run: |hexapod, a| {
+            let found = hexapod.forward_kinematics(&a.base.pose, &a.actuator_length_m, &a.platform.pose)?;
+            Ok(flat(&[found.pose.position_m]))
+        },
+    },
+    Call {
+        name: "platform_velocity",
+        inputs: &[
+            BasePosition,
+            BaseRotation,
+            BaseVelocity,
+            PlatformPosition,
+            PlatformRotation,
+            ActuatorVelocity,
+        ],
+        run: |hexapod, a| {
+            let velocity = hexapod.platform_velocity(&a.base, &a.platform.pose, &a.actuator_velocity_m_s)?;
+            Ok(flat(&[velocity.to_vector()]))
+        },
+    },
+    Call {
+        name: "monitor",
+        inputs: &[
+            BasePosition,
+            BaseRotation,
+            BaseVelocity,
+            PlatformPosition,
+            PlatformRotation,
+            PlatformVelocity,
+            ActuatorForce,
+        ],
+        run: |hexapod, a| {
+            let monitor = hexapod.monitor(&a.base, &a.platform, &a.actuator_force_n, &Limits::none())?;
+            Ok(monitor.margins.map(|margin| margin.margin).to_vec())
+        },
+    },
+    Call {
+        name: "currents",
+        inputs: &[ActuatorForce],
+        run: |_, a| {
+            let coils = VoiceCoils { force_constant_n_per_a: [20.0; 6], maximum_current_a: [2.0; 6] };
+            Ok(flat(&[coils.currents(&a.actuator_force_n)?.current_a]))
+        },
+    },
+];
+
+/// Calls of both kinds.
+pub fn all_calls() -> impl Iterator<Item = &'static Call> {
+    CALLS.iter().chain(COMPUTED)
+}
+
+/// Calls of both kinds that depend on poses.
+pub fn calls_at_poses() -> impl Iterator<Item = &'static Call> {
+    all_calls().filter(|call| POSES.iter().all(|input| call.inputs.contains(input)))
+}
 
 /// A hexapod for this call: J_dp counts only where it is the result.
 pub fn hexapod_for(call: &Call) -> Hexapod<Mock> {

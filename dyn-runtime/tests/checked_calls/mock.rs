@@ -2,6 +2,7 @@
 //! so that a test sees which number went where.
 
 use std::cell::{Cell, RefCell};
+use std::ops::Range;
 
 use dyn_runtime::kernels;
 
@@ -10,6 +11,12 @@ type V6 = [f64; 6];
 type M3 = [[f64; 3]; 3];
 type M36 = [[f64; 6]; 3];
 type M6 = [[f64; 6]; 6];
+
+/// Lengths of the actuators at any pose.
+pub const ACTUATOR_LENGTH_M: V6 = [0.2; 6];
+
+/// Where J_dp stands among the outputs of `control`.
+pub const JACOBIAN_IN_CONTROL: Range<usize> = 12..48;
 
 pub struct Mock {
     /// What `rod_alignment` gives.
@@ -110,8 +117,38 @@ impl kernels::ActuatorGeometry for Mock {
         jacobian_dp: &mut M6,
     ) {
         *rod_alignment = self.rod_alignment;
-        *actuator_length = [0.2; 6];
+        *actuator_length = ACTUATOR_LENGTH_M;
         *jacobian_dp = self.jacobian_dp.unwrap_or([[1.0; 6]; 6]);
+    }
+}
+
+/// Counts, but its J_dp is the one that `jacobian_dp` gives: it is judged.
+impl kernels::Control for Mock {
+    fn control(
+        &self,
+        rb: &V3,
+        b: &M3,
+        vb: &V6,
+        ab: &V6,
+        rp: &V3,
+        p: &M3,
+        vp: &V6,
+        ap: &V6,
+        wrench: &V6,
+        actuator_length: &mut V6,
+        actuator_velocity: &mut V6,
+        jacobian_dp: &mut M6,
+        mass_matrix_p: &mut M6,
+        total_bias: &mut V6,
+        forces: &mut V6,
+    ) {
+        let outputs: &mut [&mut dyn Flat] =
+            &mut [actuator_length, actuator_velocity, jacobian_dp, mass_matrix_p, total_bias, forces];
+        self.count(&[rb, b, vb, ab, rp, p, vp, ap, wrench], outputs);
+        let is_poisoned = self.poisoned.is_some_and(|output| JACOBIAN_IN_CONTROL.contains(&output));
+        if let Some(given) = self.jacobian_dp.filter(|_| !is_poisoned) {
+            *jacobian_dp = given;
+        }
     }
 }
 
@@ -157,6 +194,11 @@ counting! {
     EquationOfMotion => equation_of_motion(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6)
         -> (o1: M6, o2: M6, o3: M6, o4: M6, o5: M6, o6: M6, o7: M6, o8: M6, o9: V6, o10: V6, o11: V6, o12: V6);
     InverseDynamics => inverse_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
+        -> (o1: V6);
+    PassiveInverseDynamics => passive_inverse_dynamics(
+        i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6, i10: V6
+    ) -> (o1: V6);
+    BaseReaction => base_reaction(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
         -> (o1: V6);
     ForwardDynamics => forward_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
         -> (o1: V6);

@@ -76,7 +76,7 @@ fn the_counter_counts() {
 
 /// The functions of a model, by the file that the generator wrote.
 fn functions() -> Vec<&'static str> {
-    let model = include_str!("../src/generated/uhp.rs");
+    let model = include_str!("../../src/generated/uhp.rs");
     let names =
         model.split("\npub fn ").skip(1).map(|text| text.split_once(['<', '(']).expect("a signature").0);
     // Methods choose between a function and the same in lanes; `prepared()` calls what prepares some.
