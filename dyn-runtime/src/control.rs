@@ -37,7 +37,7 @@ pub struct Control<T = f64> {
 }
 
 impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
-    /// Lengths, rates, J_dp, M_p, bias and the forces F for `platform_acceleration`, in one call of about
+    /// Lengths, rates, J_dp, M_p, total bias and the forces F for `platform_acceleration`, in one call of about
     /// 1.6 times the operations of inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
     /// accelerations of both bodies and on the external wrench.
     ///
