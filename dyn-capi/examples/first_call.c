@@ -26,7 +26,8 @@ int main(void)
 
     status = dyn_inverse_dynamics(&model, &inputs, &force, &info);
     if (status != DYN_STATUS_OK) {
-        fprintf(stderr, "%s (input %s, leg %d)\n", dyn_status_text(status), dyn_input_text(info.input), (int)info.leg);
+        /* Legs are 0 to 5 in the interface, 1 to 6 for people; 0 here is none. */
+        fprintf(stderr, "%s (input %s, leg %d)\n", dyn_status_text(status), dyn_input_text(info.input), (int)info.leg + 1);
         return 1;
     }
     printf("platform %s\n", dyn_baked_platform_name());

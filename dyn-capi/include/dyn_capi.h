@@ -220,11 +220,13 @@ typedef int32_t dyn_quantity;
 
 #if !defined(DYN_F32)
 // A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
+// Define DYN_F32 for the program if and only if the library has the feature f32; calls on bare arrays with info NULL cannot notice.
 typedef double dyn_real;
 #endif
 
 #if defined(DYN_F32)
 // A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
+// Define DYN_F32 for the program if and only if the library has the feature f32; calls on bare arrays with info NULL cannot notice.
 typedef float dyn_real;
 #endif
 
@@ -327,7 +329,7 @@ typedef struct dyn_model {
 typedef struct dyn_inputs {
   // Set to sizeof(dyn_inputs).
   size_t struct_size;
-  // Origin of the base frame B, m, O.
+  // Origin of the base frame B, m, O. Let O's origin lie near the base: a base far away costs digits, in single precision soon.
   dyn_real base_position[3];
   // Rotation of the base: B coordinates to O coordinates; its columns are the axes of B in O.
   dyn_real base_rotation[3][3];
@@ -345,7 +347,8 @@ typedef struct dyn_inputs {
   dyn_real platform_acceleration[6];
   // Reference velocity [r_r'; w_r]: m/s, rad/s; O. For dyn_passive_inverse_dynamics only.
   dyn_real reference_velocity[6];
-  // Forces of the six actuators, N, positive away from the base.
+  // Forces of the six actuators, N, positive away from the base. For dyn_forward_dynamics, and for dyn_monitor and
+  // dyn_check_limits, which judge them; no call fills them in.
   dyn_real actuator_force[6];
   // External force and moment on the payload at its centre of mass [F_D; M_D]: N, N m; O.
   dyn_real external_wrench[6];
@@ -397,7 +400,8 @@ typedef struct dyn_forward_kinematics_result {
   dyn_real platform_position[3];
   // P coordinates to O coordinates.
   dyn_real platform_rotation[3][3];
-  // Largest difference between a length given and one at this pose, m.
+  // Largest difference between a length given and one at this pose, m, by the pose relative to the base: far from O the
+  // rounding of positions in O adds to it.
   dyn_real residual;
   // Newton steps that led there.
   uint32_t iterations;
@@ -535,7 +539,8 @@ typedef struct dyn_limits {
   dyn_real home_direction_in_base[6][3];
   // Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
   dyn_real home_direction_in_platform[6][3];
-  // Least conditioning of J_dp, 0 to 1.
+  // Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is 3 to 4
+  // times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
   dyn_real minimum_condition_bound;
 } dyn_limits;
 
@@ -577,7 +582,7 @@ typedef struct dyn_currents_result {
 extern "C" {
 #endif // __cplusplus
 
-// Lengths, rates, J_dp, M_p, bias and the forces for `platform_acceleration`, in one call that costs less than twice
+// Lengths, rates, J_dp, M_p, total_bias and the forces for `platform_acceleration`, in one call that costs less than twice
 // dyn_inverse_dynamics. Depends on poses, velocities and accelerations of both bodies and on the external wrench.
 dyn_status dyn_control(const struct dyn_model *model,
                        const struct dyn_inputs *inputs,

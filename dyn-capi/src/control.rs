@@ -41,13 +41,14 @@ pub struct ForwardKinematics {
     pub platform_position: [Real; 3],
     /// P coordinates to O coordinates.
     pub platform_rotation: [[Real; 3]; 3],
-    /// Largest difference between a length given and one at this pose, m.
+    /// Largest difference between a length given and one at this pose, m, by the pose relative to the base: far from O the
+    /// rounding of positions in O adds to it.
     pub residual: Real,
     /// Newton steps that led there.
     pub iterations: u32,
 }
 
-/// Lengths, rates, J_dp, M_p, bias and the forces for `platform_acceleration`, in one call that costs less than twice
+/// Lengths, rates, J_dp, M_p, total_bias and the forces for `platform_acceleration`, in one call that costs less than twice
 /// dyn_inverse_dynamics. Depends on poses, velocities and accelerations of both bodies and on the external wrench.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dyn_control(

@@ -14,7 +14,7 @@ use crate::real::Real;
 pub struct Inputs {
     /// Set to sizeof(dyn_inputs).
     pub struct_size: usize,
-    /// Origin of the base frame B, m, O.
+    /// Origin of the base frame B, m, O. Let O's origin lie near the base: a base far away costs digits, in single precision soon.
     pub base_position: [Real; 3],
     /// Rotation of the base: B coordinates to O coordinates; its columns are the axes of B in O.
     pub base_rotation: [[Real; 3]; 3],
@@ -32,7 +32,8 @@ pub struct Inputs {
     pub platform_acceleration: [Real; 6],
     /// Reference velocity [r_r'; w_r]: m/s, rad/s; O. For dyn_passive_inverse_dynamics only.
     pub reference_velocity: [Real; 6],
-    /// Forces of the six actuators, N, positive away from the base.
+    /// Forces of the six actuators, N, positive away from the base. For dyn_forward_dynamics, and for dyn_monitor and
+    /// dyn_check_limits, which judge them; no call fills them in.
     pub actuator_force: [Real; 6],
     /// External force and moment on the payload at its centre of mass [F_D; M_D]: N, N m; O.
     pub external_wrench: [Real; 6],

@@ -34,7 +34,8 @@ pub struct Limits {
     pub home_direction_in_base: [[Real; 3]; 6],
     /// Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
     pub home_direction_in_platform: [[Real; 3]; 6],
-    /// Least conditioning of J_dp, 0 to 1.
+    /// Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is 3 to 4
+    /// times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
     pub minimum_condition_bound: Real,
 }
 

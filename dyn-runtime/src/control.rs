@@ -37,7 +37,7 @@ pub struct Control<T = f64> {
 }
 
 impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
-    /// Lengths, rates, J_dp, M_p, bias and the forces F for `platform_acceleration`, in one call of about
+    /// Lengths, rates, J_dp, M_p, total bias and the forces F for `platform_acceleration`, in one call of about
     /// 1.6 times the operations of inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
     /// accelerations of both bodies and on the external wrench.
     ///
@@ -124,6 +124,33 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     ///
     /// # Errors
     /// See [`Hexapod`]; besides, [`Error::SingularJacobian`].
+    ///
+    /// ```
+    /// use dyn_runtime::nalgebra::{Matrix6, Vector3, Vector6};
+    /// use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, Pose, Twist, Wrench, models::Uhp2016};
+    ///
+    /// let hexapod = Hexapod::new(Uhp2016);
+    /// let base = BaseMotion::at_rest(Pose::identity());
+    /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
+    /// let velocity = Twist { linear_m_s: Vector3::new(0.01, 0.0, 0.0), angular_rad_s: Vector3::new(0.0, 0.0, 0.1) };
+    /// let platform = PlatformState { pose: home, velocity };
+    /// // The reference stands still, so that s is the platform's velocity.
+    /// let (rest, none) = (Acceleration::zero(), Wrench::zero());
+    /// let feed_forward =
+    ///     hexapod.passive_inverse_dynamics(&base, &platform, &Twist::zero(), &rest, &none)?;
+    /// let gain = Matrix6::from_diagonal(&Vector6::new(900.0, 900.0, 900.0, 20.0, 20.0, 20.0));
+    /// let s = velocity.to_vector();
+    /// let wrench = -gain * s;
+    /// let jacobian_dp = hexapod.jacobian_dp(&base, &platform)?;
+    /// let share = jacobian_dp.transpose().lu().solve(&wrench).expect("J_dp is regular at home");
+    /// let there = hexapod.forward_dynamics(&base, &platform, &(feed_forward + share), &none)?;
+    /// // The energy of the error falls: at the rate 2 s^T K s, as C_p's part of its change is without power.
+    /// let masses = hexapod.mass_matrix_p(&base, &platform)?;
+    /// let coriolis = hexapod.coriolis_matrices(&base, &platform)?.coriolis_matrix_p;
+    /// let left = masses * there.to_vector() + coriolis * s;
+    /// assert!((left - wrench).amax() < 1e-9 * wrench.amax() && s.dot(&wrench) < 0.0);
+    /// # Ok::<(), dyn_runtime::Error>(())
+    /// ```
     pub fn passive_inverse_dynamics(
         &self,
         base: &BaseMotion<T>,

@@ -39,7 +39,7 @@ pub struct Saturation<T = f64> {
 impl<T: Real> VoiceCoils<T> {
     /// The currents for `actuator_force_n` (N). Where one of them is beyond its limit, all six forces are
     /// scaled by one factor: the wrench `J_dp^T F` on the platform becomes smaller but keeps its direction,
-    /// which cutting each current by itself would turn.
+    /// which cutting each current by itself would turn. That is no error: [`Currents::saturation`] alone tells.
     ///
     /// # Errors
     /// [`Error::NonFinite`] for forces; [`Error::InvalidCoil`] for a force constant that is 0 or not finite

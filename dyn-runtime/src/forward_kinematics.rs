@@ -26,7 +26,8 @@ pub struct ForwardKinematics<T: Real = f64> {
     /// Newton steps that led there.
     pub iterations: u32,
     /// Largest difference between a length given and a length at the pose, m; at most
-    /// [`Real::LENGTH_RESIDUAL_M`].
+    /// [`Real::LENGTH_RESIDUAL_M`]. It holds for the pose as seen from the base; added to the position of a base far from O's
+    /// origin, the pose in O is rounded to that distance's digits.
     pub residual_m: T,
 }
 
@@ -38,11 +39,13 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// pose in a loop, the base's pose composed with the platform's home at switch-on. `docs/control.md` shows
     /// from how far the paper's platform finds its pose.
     ///
+    /// **Wrong lengths have a pose too**, as a rule, and it is returned: compare lengths with the stroke before and the pose with
+    /// the last one after, as `docs/control-loop.md` does.
+    ///
     /// # Errors
     /// See [`Hexapod`] for poses and lengths that are refused; [`Error::OutOfReach`] and [`Error::RodPerpendicular`] are about
     /// the start. [`Error::SingularJacobian`] where the legs at a pose on the way determine no step;
-    /// [`Error::NoConvergence`] otherwise, also where no leg could reach the poses that the lengths lead to. A wrong length
-    /// often has a pose all the same: see whether it is within the stroke first.
+    /// [`Error::NoConvergence`] otherwise, also where no leg could reach the poses that the lengths lead to.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::Vector3;

@@ -4,7 +4,12 @@
 // Trait methods call free functions through `self::`, needed only where an output has the function's name.
 #![allow(unused_qualifications)]
 
-/// What every model can compute: one trait per function.
+/// What every model can compute: one trait per function, on plain row-major arrays, without any check.
+///
+/// Where a checked call of [`Hexapod`](crate::Hexapod) refuses, these give NaN or infinities for inputs that are not finite and out of
+/// a leg's reach, but **finite numbers without meaning** for a matrix that is no rotation, for a rod nearly perpendicular to its
+/// actuator (below [`Real::MIN_ROD_ALIGNMENT`](crate::Real::MIN_ROD_ALIGNMENT)) and near a singular J_dp. So a look at the result
+/// is no replacement for the checks.
 pub mod kernels;
 /// The model with all parameters at run time.
 pub mod uhp;

@@ -27,20 +27,30 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 ///   [`Error::RodPerpendicular`];
 /// - results that are not finite: [`Error::NonFiniteResult`].
 ///
-/// [`inverse_dynamics`](Self::inverse_dynamics), the one call that inverts J_dp, refuses
-/// [`Error::SingularJacobian`] as well; forward dynamics inverts M_p, which is positive definite in every
-/// pose. Not checked: stroke, rate and force limits, and whether numbers are in SI units.
+/// Calls that invert J_dp refuse [`Error::SingularJacobian`] as well: [`inverse_dynamics`](Self::inverse_dynamics),
+/// [`passive_inverse_dynamics`](Self::passive_inverse_dynamics), [`control`](Self::control),
+/// [`platform_velocity`](Self::platform_velocity) and [`forward_kinematics`](Self::forward_kinematics). Forward dynamics inverts
+/// M_p, which is positive definite in every pose. Not checked: whether numbers are in SI units, and stroke, rate and force, which
+/// [`monitor`](Self::monitor) compares with limits.
 ///
 /// # What a model must contain
 ///
 /// A model may be generated with some of the functions only. Every call checks reach, so all methods need
-/// `rod_alignment` ([`RodAlignment`]). Each needs the function of its own name besides ([`bias`](Self::bias)
-/// needs [`Bias`](crate::kernels::Bias), and so on), and [`inverse_dynamics`](Self::inverse_dynamics) also
-/// `actuator_geometry`. So a controller by inverse dynamics takes `rod_alignment,actuator_geometry,inverse_dynamics`. A
-/// function that is missing shows when compiling, as a trait that is not implemented.
+/// `rod_alignment` ([`RodAlignment`]). Most need the function of their own name besides ([`bias`](Self::bias)
+/// needs [`Bias`](crate::kernels::Bias), and so on). The others:
 ///
-/// Unchecked, the same functions are the traits in [`kernels`](crate::kernels), on plain arrays: NaN or
-/// infinities come out where a call here would refuse.
+/// | method | functions besides `rod_alignment` |
+/// |-|-|
+/// | [`inverse_dynamics`](Self::inverse_dynamics), [`passive_inverse_dynamics`](Self::passive_inverse_dynamics) | that of its name, `actuator_geometry` |
+/// | [`forward_kinematics`](Self::forward_kinematics) | `actuator_geometry` |
+/// | [`platform_velocity`](Self::platform_velocity) | `jacobian_dp`, `jacobian_db` |
+/// | [`monitor`](Self::monitor) | `leg_kinematics`, `jacobian_dp` |
+///
+/// So forces alone take `rod_alignment,actuator_geometry,inverse_dynamics`. A function that is missing shows when
+/// compiling, as a trait that is not implemented.
+///
+/// Unchecked, the same functions are the traits in [`kernels`](crate::kernels), on plain arrays. They refuse nothing, and
+/// **what comes out where a call here would refuse may be finite**: see there.
 ///
 /// # Precision
 ///

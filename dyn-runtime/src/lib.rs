@@ -77,9 +77,8 @@
 //! Checked calls are the methods of [`Hexapod`], which lists what they refuse. The traits in [`kernels`] and
 //! the free functions beside each model are the same computations on plain row-major arrays without any
 //! check: a fixed amount of work (with geometry at run time there are two: a linear system is solved in blocks, and where
-//! the solution does not satisfy it, by elimination as well) and no panic whatever comes in, but NaN or infinities out of reach, at a rod
-//! perpendicular to its actuator and (inverse dynamics) at a singular Jacobian, and near a singular one
-//! finite forces without meaning.
+//! the solution does not satisfy it, by elimination as well) and no panic whatever comes in, but where a checked call refuses, numbers
+//! without meaning come out, often finite ones: [`kernels`] says which.
 //!
 //! # Precision
 //!

@@ -24,7 +24,7 @@ pub enum Quantity {
     HookeJointAngle,
     /// Angle between rod and its direction at home, in platform axes, rad.
     PlatformJointAngle,
-    /// [`jacobian_condition_bound`](crate::jacobian_condition_bound), of all legs together.
+    /// [`jacobian_condition_bound`](crate::jacobian_condition_bound), a lower bound of the reciprocal condition, of all legs together.
     Conditioning,
 }
 
@@ -48,7 +48,9 @@ pub struct Limits<T = f64> {
     pub home_direction_in_base: [[T; 3]; 6],
     /// Direction of the rod at home, P. Counts where an angle at the platform joint is limited.
     pub home_direction_in_platform: [[T; 3]; 6],
-    /// Least [`jacobian_condition_bound`](crate::jacobian_condition_bound), without unit; negative infinity is none.
+    /// Least [`jacobian_condition_bound`](crate::jacobian_condition_bound), without unit; negative infinity is none. The bound is
+    /// several times smaller than the reciprocal condition, and that is below 1 even for J_dp of an ideal layout, so that usual
+    /// demands on a condition number refuse every pose: look at the margin at home with a limit of 0, and choose well below it.
     pub minimum_condition_bound: T,
 }
 
@@ -162,7 +164,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses and velocities;
     /// `actuator_force_n` are the forces to be judged, N.
     ///
-    /// A state beyond its limits is a valid answer here, whose [`Monitor::check`] is an error.
+    /// A state beyond its limits is a valid answer here, whose [`Monitor::check`] is an error. `actuator_force_n` are best the forces
+    /// that the coils give, [`Currents::actuator_force_n`](crate::current::Currents::actuator_force_n).
     ///
     /// # Errors
     /// See [`Hexapod`]; besides, [`Error::InvalidLimit`] for a limit that is NaN, and for an angle that is limited where its

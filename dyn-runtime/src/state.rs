@@ -12,6 +12,9 @@ use crate::error::{NotARotation, NotAUnitQuaternion};
 use crate::real::Real;
 
 /// Position and orientation of a body frame, B or P, in O.
+///
+/// Let O's origin lie near the mechanism: what counts are differences of the positions of base and platform, and far from O
+/// they lose the digits that the distance takes, in single precision soon. In a control loop O may move with the base's origin.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pose<T: Real = f64> {
     /// Origin of the body frame, m, O.

@@ -113,22 +113,13 @@ fn failures_are_typed() {
 
     let mut nan = at_home;
     nan[2] = f64::NAN;
-    assert_eq!(from(&nan, &home).unwrap_err(), Error::NonFinite { input: Input::ActuatorLength });
+    assert_eq!(from(&nan, &home).unwrap_err(), Error::NonFinite { input: Input::ActuatorLength, element: 2 });
     let far = Pose { position_m: Vector3::new(1.0, 0.0, 0.382), ..home };
     assert!(matches!(from(&at_home, &far), Err(Error::OutOfReach { .. })));
     // Neighbours half a metre apart: no pose has such lengths.
     let apart = at_home + Vector6::new(0.5, 0.0, 0.0, 0.0, 0.0, 0.0);
     let refused = from(&apart, &home).unwrap_err();
-    assert!(
-        matches!(
-            refused,
-            Error::OutOfReach { .. }
-                | Error::RodPerpendicular { .. }
-                | Error::NoConvergence { .. }
-                | Error::SingularJacobian { .. }
-        ),
-        "{refused}"
-    );
+    assert!(matches!(refused, Error::NoConvergence { residual_m, .. } if residual_m > 1e-3), "{refused}");
     let huge = Vector6::repeat(1e300);
     assert!(from(&huge, &home).is_err());
 }

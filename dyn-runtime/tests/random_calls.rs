@@ -186,12 +186,14 @@ fn kind<T>(answer: &Result<T, Error>) -> &'static str {
         Err(Error::SingularJacobian { .. }) => "singular Jacobian",
         Err(Error::NoConvergence { .. }) => "no convergence",
         Err(Error::BeyondLimit { .. }) => "beyond a limit",
+        Err(Error::InvalidLimit { .. }) => "invalid limit",
+        Err(Error::InvalidCoil { .. }) => "invalid coil",
         Err(Error::NonFiniteResult) => "non-finite result",
         Err(other) => panic!("a new kind of answer: {other}"),
     }
 }
 
-const KINDS: usize = 10;
+const KINDS: usize = 12;
 
 #[derive(Default)]
 struct Seen {
@@ -267,18 +269,26 @@ fn calls(seen: &mut Seen, source: &mut Source) {
     seen.add("equation", hexapod.equation_of_motion(&base, &platform), |e| {
         finite66(&e.mass_matrix_p) && finite66(&e.coriolis_matrix_b) && finite6(&e.bias)
     });
-    let limits = Limits {
+    let mut limits = Limits {
         minimum_length_m: [0.15; 6],
         maximum_length_m: [0.25; 6],
         maximum_velocity_m_s: [3.0; 6],
         maximum_force_n: [55.0; 6],
         ..Limits::none()
     };
-    let monitor = seen.add("monitor", hexapod.monitor(&base, &platform, &forces, &limits), |_| true);
+    if source.chance(20) {
+        limits.maximum_length_m[3] = f64::NAN;
+    }
+    let monitor = seen.add("monitor", hexapod.monitor(&base, &platform, &forces, &limits), |monitor| {
+        monitor.margins.iter().all(|margin| !margin.margin.is_nan())
+    });
     if let Some(monitor) = monitor {
         seen.add("limits", monitor.check(), |()| true);
     }
-    let coils = VoiceCoils { force_constant_n_per_a: [20.0; 6], maximum_current_a: [2.0; 6] };
+    let mut coils = VoiceCoils { force_constant_n_per_a: [20.0; 6], maximum_current_a: [2.0; 6] };
+    if source.chance(20) {
+        coils.force_constant_n_per_a[2] = 0.0;
+    }
     let currents = seen.add("currents", coils.currents(&forces), |c| {
         finite6(&c.current_a) && finite6(&c.actuator_force_n) && c.current_a.amax() <= 2.0
     });

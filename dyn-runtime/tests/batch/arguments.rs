@@ -17,9 +17,9 @@ fn bad_states_are_named_and_leave_their_neighbours_alone() {
     inputs.sixes[0][10][5] = f64::INFINITY;
     inputs.rotations[1][29][4] = f64::NAN;
     let refused = [
-        (9, Error::NonFinite { input: Input::PlatformAcceleration }),
-        (10, Error::NonFinite { input: Input::BaseVelocity }),
-        (29, Error::NonFinite { input: Input::PlatformRotation }),
+        (9, Error::NonFinite { input: Input::PlatformAcceleration, element: 2 }),
+        (10, Error::NonFinite { input: Input::BaseVelocity, element: 5 }),
+        (29, Error::NonFinite { input: Input::PlatformRotation, element: 4 }),
     ];
     inputs.positions[1][4][0] += 0.3;
     for instructions in Instructions::available() {

@@ -75,7 +75,8 @@ fn a_simulation_does_not_depend_on_the_lane_and_stops_alone() {
         let all = flight(batch, &inputs, &forces, 400, 1e-4);
         assert_eq!(all.steps[4], 400);
         assert!(all.status[5].is_err() && all.steps[5] > 10 && all.steps[5] < 400, "{:?}", all.status[5]);
-        assert_eq!((all.status[6], all.steps[6]), (Err(Error::NonFinite { input: Input::ActuatorForce }), 0));
+        let of_leg_4 = Error::NonFinite { input: Input::ActuatorForce, element: 3 };
+        assert_eq!((all.status[6], all.steps[6]), (Err(of_leg_4), 0));
         assert_eq!(all.position[6], inputs.positions[1][6], "as it began");
         assert_eq!(all.status.iter().filter(|status| status.is_err()).count(), 2);
         assert!(all.peak[4][2] >= all.rms[4][2] && all.rms[4][2] > 0.0);

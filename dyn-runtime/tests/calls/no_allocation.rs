@@ -12,8 +12,8 @@ use std::hint::black_box;
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use dyn_runtime::{
-    Acceleration, BaseMotion, Error, Hexapod, Input, PlatformState, Pose, Twist, Wrench, angles, kernels,
-    solve,
+    Acceleration, BaseMotion, Error, Hexapod, Input, PlatformState, Pose, Quantity, Twist, Wrench, angles,
+    kernels, solve,
 };
 
 struct Counting;
@@ -379,13 +379,15 @@ impl Write for Line {
 fn messages_ask_for_no_memory() {
     let defect = Pose::from_rotation_matrix(Vector3::zeros(), &Matrix3::<f64>::zeros()).expect_err("refused");
     let errors = [
-        Error::NonFinite { input: Input::BaseVelocity },
+        Error::NonFinite { input: Input::BaseVelocity, element: 5 },
         Error::NotARotation { input: Input::BaseRotation, defect },
         Error::InvalidModel { leg: 0 },
         Error::OutOfReach { leg: 1 },
         Error::RodPerpendicular { leg: 2 },
         Error::SingularJacobian { reciprocal_condition: 1e-9 },
         Error::NonFiniteResult,
+        Error::InvalidLimit { quantity: Quantity::HookeJointAngle, leg: Some(3) },
+        Error::InvalidCoil { leg: 4 },
     ];
     for error in errors {
         let mut line = Line { bytes: [0; 400], length: 0 };

@@ -35,7 +35,7 @@ fn inputs_that_are_not_finite_are_named_before_the_model_is_asked() {
                     let hexapod = hexapod_for(call);
                     let result = (call.run)(&hexapod, &arguments().with(*input, element, value));
                     if call.inputs.contains(input) {
-                        assert_eq!(result, Err(Error::NonFinite { input: *input }), "{}", call.name);
+                        assert_eq!(result, Err(Error::NonFinite { input: *input, element }), "{}", call.name);
                         assert_eq!(hexapod.model.calls.get(), 0, "{}", call.name);
                     } else {
                         assert!(result.is_ok(), "{} does not depend on the {input}", call.name);
