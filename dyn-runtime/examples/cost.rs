@@ -9,10 +9,11 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use dyn_runtime::current::VoiceCoils;
 use dyn_runtime::kernels;
 use dyn_runtime::models::Uhp2016;
-use dyn_runtime::nalgebra::Vector3;
-use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Pose, Twist, Wrench};
+use dyn_runtime::nalgebra::{Vector3, Vector6};
+use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, Limits, PlatformState, Pose, Twist, Wrench};
 
 /// Calls of one run, unless the first argument says otherwise (few, under valgrind).
 const CALLS: u32 = 200_000;
@@ -67,6 +68,22 @@ fn main() -> Result<(), Error> {
     let model = Uhp2016;
     // Results stay where they are written: moving them would be measured too.
     let found = format!("forward_kinematics, {} steps, checked", found.iterations);
+    let reference = base.velocity;
+    let limits = Limits {
+        minimum_length_m: [0.19; 6],
+        maximum_length_m: [0.21; 6],
+        maximum_velocity_m_s: [0.5; 6],
+        maximum_force_n: [50.0; 6],
+        minimum_condition_bound: 1e-3,
+        ..Limits::none()
+    };
+    let angles_too = Limits {
+        maximum_hooke_joint_angle_rad: [0.3; 6],
+        maximum_platform_joint_angle_rad: [0.3; 6],
+        ..limits
+    };
+    let coils = VoiceCoils { force_constant_n_per_a: [20.0; 6], maximum_current_a: [2.0; 6] };
+    let wanted = Vector6::new(30.0, -20.0, 25.0, 10.0, -60.0, 15.0);
     let (at, angles, quaternion) = (base.pose.position_m, [0.02, -0.01, 1.3], [0.5, -0.5, 0.5, 0.5]);
     #[rustfmt::skip]
     let costs = [
@@ -106,6 +123,26 @@ fn main() -> Result<(), Error> {
         ("control, checked", time(|| {
             let _ = black_box(hexapod.control(black_box(&base), &platform, &acceleration, &wrench));
         })),
+        ("passive_inverse_dynamics, checked", time(|| {
+            let _ = black_box(hexapod.passive_inverse_dynamics(
+                black_box(&base), &platform, &reference, &acceleration, &wrench,
+            ));
+        })),
+        ("base_reaction, checked", time(|| {
+            let _ = black_box(hexapod.base_reaction(black_box(&base), &platform, &acceleration, &wrench));
+        })),
+        ("platform_velocity, checked", time(|| {
+            let _ = black_box(hexapod.platform_velocity(black_box(&base), &platform.pose, &legs.actuator_velocity_m_s));
+        })),
+        ("monitor of lengths, rates and forces, checked", time(|| {
+            let _ = black_box(hexapod.monitor(black_box(&base), &platform, &wanted, &limits));
+        })),
+        ("monitor with angles of joints, checked", time(|| {
+            let _ = black_box(hexapod.monitor(black_box(&base), &platform, &wanted, &angles_too));
+        })),
+        ("currents, checked", time(|| {
+            let _ = black_box(coils.currents(black_box(&wanted)));
+        })),
         (&found, time(|| {
             let base = black_box(&base.pose);
             let _ = black_box(hexapod.forward_kinematics(base, &legs.actuator_length_m, &near));
@@ -122,9 +159,9 @@ fn main() -> Result<(), Error> {
     ];
     let of = |call: &str| costs.iter().find(|row| row.0 == call).map_or(f64::NAN, |row| row.1);
     let (unchecked, checked) = (of(UNCHECKED), of(CHECKED));
-    println!("{:<44} {:>8} {:>14} {:>14}", "call", "ns", "to unchecked", "to checked");
+    println!("{:<48} {:>8} {:>14} {:>14}", "call", "ns", "to unchecked", "to checked");
     for (call, ns) in costs {
-        println!("{call:<44} {ns:>8.1} {:>14.2} {:>14.2}", ns / unchecked, ns / checked);
+        println!("{call:<48} {ns:>8.1} {:>14.2} {:>14.2}", ns / unchecked, ns / checked);
     }
     Ok(())
 }

@@ -9,11 +9,12 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::hint::black_box;
 
+use dyn_runtime::current::VoiceCoils;
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use dyn_runtime::{
-    Acceleration, BaseMotion, Error, Hexapod, Input, PlatformState, Pose, Quantity, Twist, Wrench, angles,
-    kernels, solve,
+    Acceleration, BaseMotion, Error, Hexapod, Input, Limits, Monitor, PlatformState, Pose, Quantity, Twist,
+    Wrench, angles, kernels, solve,
 };
 
 struct Counting;
@@ -127,7 +128,7 @@ fn arguments() -> Arguments {
     }
 }
 
-/// Every checked call by name, and its error if it has one.
+/// Every checked call of one function of the model, by that function's name, and its error if it has one.
 fn checked_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static str, Option<Error>); 22] {
     fn error<T>(result: Result<T, Error>) -> Option<Error> {
         black_box(result).err()
@@ -185,6 +186,27 @@ fn checked_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static
         ("base_reaction", error(h.base_reaction(base, platform, platform_acceleration, external_wrench))),
         ("forward_dynamics", error(h.forward_dynamics(base, platform, actuator_force_n, external_wrench))),
         ("energy", error(h.energy(base, platform))),
+    ]
+}
+
+/// Every checked call that computes something itself from what the model gives, and its error if it has one.
+fn computed_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static str, Option<Error>); 4] {
+    let limits =
+        Limits { maximum_force_n: [50.0; 6], maximum_hooke_joint_angle_rad: [0.5; 6], ..Limits::none() };
+    let monitor = black_box(hexapod.monitor(&a.base, &a.platform, &a.actuator_force_n, &limits));
+    // A state beyond its limits is no error of monitors.
+    let _ = black_box(monitor.as_ref().map(Monitor::check));
+    let rates = black_box(Vector6::repeat(0.1));
+    let velocity = black_box(hexapod.platform_velocity(&a.base, &a.platform.pose, &rates));
+    let coils = black_box(VoiceCoils { force_constant_n_per_a: [20.0; 6], maximum_current_a: [0.5; 6] });
+    let currents = black_box(coils.currents(&a.actuator_force_n));
+    let lost = black_box(Limits { maximum_force_n: [f64::NAN; 6], ..Limits::none() });
+    let refused = black_box(hexapod.monitor(&a.base, &a.platform, &a.actuator_force_n, &lost));
+    [
+        ("monitor", monitor.err()),
+        ("platform_velocity", velocity.err()),
+        ("currents", currents.err()),
+        ("monitor without limits", refused.ok().map(|_| Error::NonFiniteResult)),
     ]
 }
 
@@ -305,6 +327,9 @@ fn assert_no_requests(model: impl Complete) {
     assert_eq!(requests(|| results = checked_calls(&hexapod, black_box(&inside))), 0);
     assert_eq!(results.map(|(name, _)| name).as_slice(), functions());
     assert!(results.iter().all(|(_, error)| error.is_none()), "{results:?}");
+    let mut computed = [("", None); 4];
+    assert_eq!(requests(|| computed = computed_calls(&hexapod, black_box(&inside))), 0);
+    assert!(computed.iter().all(|(_, error)| error.is_none()), "{computed:?}");
 
     assert_eq!(RAW_CALLS, functions());
     let arrays = Arrays::new(&inside);
@@ -318,10 +343,12 @@ fn assert_no_requests(model: impl Complete) {
     no_rotation.platform.pose.rotation = Rotation3::from_matrix_unchecked(Matrix3::repeat(0.5));
     for bad in [outside, no_numbers, no_rotation] {
         assert_eq!(requests(|| results = checked_calls(&hexapod, black_box(&bad))), 0);
+        assert_eq!(requests(|| computed = computed_calls(&hexapod, black_box(&bad))), 0);
         let arrays = Arrays::new(&bad);
         assert_eq!(requests(|| raw_calls(&hexapod.model, black_box(&arrays))), 0);
     }
     assert!(results.iter().all(|(_, error)| error.is_some()), "{results:?}");
+    assert!(computed[..2].iter().all(|(_, error)| error.is_some()), "{computed:?}");
 }
 
 #[test]

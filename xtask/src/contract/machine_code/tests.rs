@@ -114,6 +114,10 @@ fn calls_of_anything_have_no_bound() {
     assert!(unknown("   0:\tjmp    *0x18(%rax)"));
     assert!(unknown(&format!("{}   7:\tmov    %edi,%ebx\n   9:\tcall   *%rbx", load("rbx", 0))));
     assert!(unknown(&format!("{}   7:\tcall   *%rax\n   9:\tcall   *%rax", load("rax", 0))));
+    // One function on one way, another on the other.
+    let other = "   9:\tmov    0x0(%rip),%rbx        # 10 <it+0x10>\n\t\t\tc: R_X86_64_GOTPCREL\tmemcpy-0x4";
+    let join = format!("   2:\tje     9 <it+0x9>\n{}   7:\tjmp    20 <it+0x20>\n{other}", load("rbx", 3));
+    assert!(unknown(&format!("{join}\n  20:\tcall   *%rbx")));
     // On one of two ways.
     let one_way = format!("   0:\tje     8 <it+0x8>\n{}   8:\tcall   *%rbx", load("rbx", 2));
     assert!(unknown(&one_way));
