@@ -1,9 +1,9 @@
-//! Random calls of everything checked, far beyond what is sensible: no panic, no result that is not finite, and every
-//! kind of answer seen often.
+//! Random calls of everything checked, far beyond what is sensible: no panic, no result that is not finite, no
+//! answer that is not one of the call's own, and every kind of answer seen often.
 //!
 //! `RANDOM_CALLS=100000000 cargo test --release -p dyn-runtime --test random_calls` is the long run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dyn_runtime::current::VoiceCoils;
 use dyn_runtime::models::Uhp2016;
@@ -193,20 +193,43 @@ fn kind<T>(answer: &Result<T, Error>) -> &'static str {
     }
 }
 
+/// What each call may answer besides "non-finite result"; every one of these is seen.
+fn kinds(call: &str) -> Vec<&'static str> {
+    let at_poses =
+        ["ok", "non-finite input", "not a rotation", "invalid model", "out of reach", "rod perpendicular"];
+    match call {
+        "inverse" | "control" | "passive" | "velocity" => [&at_poses[..], &["singular Jacobian"]].concat(),
+        "pose" => [&at_poses[..], &["singular Jacobian", "no convergence"]].concat(),
+        "monitor" => [&at_poses[..], &["invalid limit"]].concat(),
+        "limits" => vec!["ok", "beyond a limit"],
+        "currents" => vec!["ok", "non-finite input", "invalid coil"],
+        _ => at_poses.to_vec(),
+    }
+}
+
 const KINDS: usize = 12;
 
 #[derive(Default)]
 struct Seen {
     calls: u64,
     kinds: BTreeMap<&'static str, u64>,
+    by_call: BTreeMap<(&'static str, &'static str), u64>,
     saturated: u64,
 }
 
 impl Seen {
-    /// Counts the answer; a result must be finite.
-    fn add<T>(&mut self, call: &str, answer: Result<T, Error>, is_finite: impl Fn(&T) -> bool) -> Option<T> {
+    /// Counts the answer, which must be one that the call has; a result must be finite.
+    fn add<T>(
+        &mut self,
+        call: &'static str,
+        answer: Result<T, Error>,
+        is_finite: impl Fn(&T) -> bool,
+    ) -> Option<T> {
+        let kind = kind(&answer);
+        assert!(kind == "non-finite result" || kinds(call).contains(&kind), "{call}: {kind}");
         self.calls += 1;
-        *self.kinds.entry(kind(&answer)).or_default() += 1;
+        *self.kinds.entry(kind).or_default() += 1;
+        *self.by_call.entry((call, kind)).or_default() += 1;
         if let Ok(result) = &answer {
             assert!(is_finite(result), "{call}: a result that is not finite, with Ok");
         }
@@ -297,7 +320,7 @@ fn calls(seen: &mut Seen, source: &mut Source) {
         finite6(&v.to_vector())
     });
     let lengths = Vector6::repeat(0.198) + source.six(reach);
-    let start = base.pose.compose(&home);
+    let start = if source.chance(2) { platform.pose } else { base.pose.compose(&home) };
     seen.add("pose", hexapod.forward_kinematics(&base.pose, &lengths, &start), |found| {
         found.residual_m <= 1e-12 && found.pose.rotation.matrix().iter().all(|x| x.is_finite())
     });
@@ -336,4 +359,10 @@ fn whatever_comes_in_the_answer_is_finite_or_an_error() {
         assert!(*count >= least, "{kind} only {count} times");
     }
     assert!(seen.saturated >= least);
+    let calls: BTreeSet<&str> = seen.by_call.keys().map(|(call, _)| *call).collect();
+    for call in calls {
+        for kind in kinds(call) {
+            assert!(seen.by_call.contains_key(&(call, kind)), "{call}: never {kind}");
+        }
+    }
 }

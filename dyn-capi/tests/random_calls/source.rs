@@ -71,8 +71,8 @@ impl Source {
     pub fn numbers<const N: usize>(&mut self, numbers: &[Real; N]) -> [Real; N] {
         let mut numbers = *numbers;
         if self.chance(150) {
-            let factor = 10.0_f64.powi(self.random.random_range(-300..308));
-            numbers = numbers.map(|number| (f64::from(number) * factor) as Real);
+            let factor = 10.0_f64.powi(self.random.random_range(-300..308)) as Real;
+            numbers = numbers.map(|number| number * factor);
         }
         if self.chance(300) {
             let odd = [Real::NAN, Real::INFINITY, Real::NEG_INFINITY];
@@ -161,7 +161,7 @@ impl Source {
     }
 
     fn pose(&mut self, metres: f64, radians: f64) -> Pose {
-        let (position, turn) = (self.three(metres).map(f64::from), self.three(radians).map(f64::from));
+        let (position, turn) = (double(self.three(metres)), double(self.three(radians)));
         let mut rotation = angles::rotation(turn);
         if self.chance(200) {
             let skew = Matrix3::new(1.0, 1e-2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
@@ -250,6 +250,12 @@ impl Source {
         self.size(&mut ups.struct_size);
         parameters
     }
+}
+
+/// In double precision, whatever that of the library.
+fn double(numbers: [Real; 3]) -> [f64; 3] {
+    #[allow(clippy::useless_conversion)] // Not where the library has single precision.
+    numbers.map(f64::from)
 }
 
 fn position(pose: &Pose) -> [Real; 3] {
