@@ -731,6 +731,9 @@ dyn_status dyn_model_voice_coils(const struct dyn_model *model,
                                  struct dyn_voice_coils *coils,
                                  struct dyn_info *info);
 
+// The name of a quantity: a static string, never null, also for numbers that are no quantity.
+const char *dyn_quantity_text(int32_t quantity);
+
 // Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
 // beyond its limits is no error here: see dyn_check_limits.
 dyn_status dyn_monitor(const struct dyn_model *model,

@@ -1,5 +1,6 @@
 //! The calls about what actuators and joints may do: limits and coils of the platform file, margins, currents.
 
+use core::ffi::c_char;
 use core::mem::size_of;
 
 use dyn_runtime::current::{Currents, VoiceCoils};
@@ -124,6 +125,22 @@ pub unsafe extern "C" fn dyn_model_voice_coils(
 ) -> Status {
     // SAFETY: the caller keeps what the crate says.
     unsafe { convert(coils, info, || in_model(structure(model)?.platform()?.voice_coils().map(Into::into))) }
+}
+
+const QUANTITIES: &[(Quantity, &core::ffi::CStr)] = &[
+    (Quantity::ActuatorLength, c"actuator_length"),
+    (Quantity::ActuatorVelocity, c"actuator_velocity"),
+    (Quantity::ActuatorForce, c"actuator_force"),
+    (Quantity::HookeJointAngle, c"hooke_joint_angle"),
+    (Quantity::PlatformJointAngle, c"platform_joint_angle"),
+    (Quantity::Conditioning, c"conditioning"),
+];
+
+/// The name of a quantity: a static string, never null, also for numbers that are no quantity.
+#[unsafe(no_mangle)]
+pub extern "C" fn dyn_quantity_text(quantity: i32) -> *const c_char {
+    let row = QUANTITIES.iter().find(|(known, _)| *known as i32 == quantity);
+    row.map_or(c"not a quantity of this library", |(_, text)| *text).as_ptr()
 }
 
 fn in_model<T>(carried: Option<T>) -> Result<T, Refusal> {

@@ -3,6 +3,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "dyn_capi.h"
 
@@ -130,6 +131,8 @@ static void limits(void)
     all.maximum_hooke_joint_angle[1] = (dyn_real)0.1;
     check(dyn_check_limits(&model, &low, &all, &info) == DYN_STATUS_INVALID_LIMIT, "an angle from no direction");
     check(info.quantity == DYN_QUANTITY_HOOKE_JOINT_ANGLE && info.leg == 1, "of which joint");
+    check(strcmp(dyn_quantity_text(info.quantity), "hooke_joint_angle") == 0, "in words");
+    check(strncmp(dyn_quantity_text(-1), "not a quantity", 14) == 0, "no quantity");
 }
 
 static void currents(void)
