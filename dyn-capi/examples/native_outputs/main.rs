@@ -5,16 +5,20 @@
 // C's own interface, called as C calls it.
 #![allow(unsafe_code)]
 
+mod derived;
+
 use std::collections::BTreeSet;
 use std::error::Error;
 use std::mem::size_of;
 use std::path::Path;
-use std::ptr::{null, null_mut};
+use std::ptr::null;
 
 use dyn_capi as capi;
 use dyn_capi::{Coils, Info, Inputs, LegKinematics, Limits, Model, ModelKind, Real, Status};
 use dyn_platform::{LegType, Platform};
 use serde_json::{Value, json};
+
+use derived::Derived;
 
 /// What a call writes.
 trait Output {
@@ -271,71 +275,9 @@ fn calls_at(model: &Model, inputs: &Inputs) -> Result<Vec<Value>, Box<dyn Error>
     Ok(list)
 }
 
-/// What the calls of a control loop take besides, made of a test vector.
-struct Derived {
-    /// Moved a little.
-    start: Inputs,
-    /// At the state, m.
-    lengths: [Real; 6],
-    /// At the state, m/s.
-    rates: [Real; 6],
-    limits: Limits,
-    coils: Coils,
-    /// N.
-    forces: [Real; 6],
-    /// rad.
-    angles: [Real; 3],
-    /// Rates of angles or angular velocity, rad/s.
-    speeds: [Real; 3],
-    quaternion: [Real; 4],
-}
-
-impl Derived {
-    fn of(model: *const Model, inputs: &Inputs) -> Result<Self, Box<dyn Error>> {
-        let mut legs: LegKinematics =
-            structure(&vec![0.0; size_of::<LegKinematics>() / size_of::<Real>() - HEADER])?;
-        // SAFETY: all live.
-        let status = unsafe { capi::dyn_leg_kinematics(model, inputs, &mut legs, null_mut()) };
-        if status != Status::Ok {
-            return Err(format!("a test vector is refused: {status:?}").into());
-        }
-        let mut start = *inputs;
-        start.platform_position[0] += 2e-4;
-        start.platform_position[2] -= 3e-4;
-        let [vx, vy, vz, wx, wy, wz] = inputs.platform_velocity;
-        let norm = (1.0 + wx * wx + wy * wy + wz * wz).sqrt();
-        Ok(Self {
-            start,
-            lengths: legs.actuator_length,
-            rates: legs.actuator_velocity,
-            limits: Limits {
-                struct_size: size_of::<Limits>(),
-                minimum_length: legs.actuator_length.map(|length| length - 0.01),
-                maximum_length: legs.actuator_length.map(|length| length + 0.02),
-                maximum_velocity: [3.0; 6],
-                maximum_force: [50.0; 6],
-                maximum_hooke_joint_angle: [0.8; 6],
-                maximum_platform_joint_angle: [1.2; 6],
-                home_direction_in_base: [[0.1, -0.2, 0.9]; 6],
-                home_direction_in_platform: legs.rod_direction,
-                minimum_condition_bound: 1e-3,
-            },
-            coils: Coils {
-                struct_size: size_of::<Coils>(),
-                force_constant: [18.0, 19.0, 20.0, 21.0, 22.0, 23.0],
-                maximum_current: [2.0; 6],
-            },
-            forces: inputs.actuator_force,
-            angles: [wx, wy, wz],
-            speeds: [vx, vy, vz],
-            quaternion: [1.0 / norm, wx / norm, wy / norm, wz / norm],
-        })
-    }
-}
-
 /// Every function of the header that gives a status is among the calls.
 fn assert_complete(platforms: &[Value]) -> Result<(), Box<dyn Error>> {
-    let header = include_str!("../include/dyn_capi.h");
+    let header = include_str!("../../include/dyn_capi.h");
     let functions = header.lines().filter_map(|line| line.strip_prefix("dyn_status "));
     let functions: BTreeSet<&str> = functions.filter_map(|line| line.split('(').next()).collect();
     for platform in platforms {
