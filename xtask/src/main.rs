@@ -61,10 +61,10 @@ enum Task {
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
     Vectors(vectors::Options),
-    /// Show that no call of the runtime crate can panic, the code and stack that each takes, and that debug and release agree
+    /// Show that no call of the runtime crate can panic or run on, the code and stack that each takes, and that debug and release agree
     ///
     /// Needs binutils (ar, objdump) and an x86-64. Stack and instructions are those of the worst way through a call and all that it calls, whatever
-    /// the numbers: loops over legs six times, steps of forward kinematics as often as they are allowed.
+    /// the numbers: every function with a loop is named with a bound, as are the reasons, and none calls what the code does not name.
     Contract,
     /// Build the C library without operating system, for this machine, a Cortex-M and WebAssembly, and look into it
     ///

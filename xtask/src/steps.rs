@@ -158,7 +158,7 @@ pub const TEST: &[Step] = &[
     },
     Step {
         name: "contract",
-        why: "no call of the runtime crate can panic; the same bits in debug and release (needs binutils, else says so)",
+        why: "no call of the runtime crate can panic or run on; the same bits in debug and release (needs binutils, else says so)",
         action: Action::Contract,
     },
     Step {
