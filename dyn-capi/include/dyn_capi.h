@@ -380,8 +380,6 @@ typedef struct dyn_info {
   size_t struct_size;
   // The input to blame, or DYN_INPUT_NONE.
   dyn_input input;
-  // Index of its first element to blame, row-major, or -1.
-  int32_t element;
   // The first leg to blame, 0 to 5 (platform files count from 1), or -1.
   int32_t leg;
   // The quantity whose limit it is about, a `DYN_QUANTITY_...`, or -1.
@@ -390,6 +388,8 @@ typedef struct dyn_info {
   dyn_real value;
   // The threshold that `value` failed; else 0.
   dyn_real limit;
+  // Index of the first element of `input` to blame, row-major, or -1.
+  int32_t element;
 } dyn_info;
 
 // A pose with given actuator lengths.
@@ -535,12 +535,12 @@ typedef struct dyn_limits {
   dyn_real maximum_hooke_joint_angle[6];
   // Largest angle between a rod and its direction at home, both in axes of P, rad.
   dyn_real maximum_platform_joint_angle[6];
-  // Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
+  // Direction of each rod at home, B, length 1. Counts where an angle at the Hooke joint is limited.
   dyn_real home_direction_in_base[6][3];
-  // Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
+  // Direction of each rod at home, P, length 1. Counts where an angle at the platform joint is limited.
   dyn_real home_direction_in_platform[6][3];
-  // Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is 3 to 4
-  // times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
+  // Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is
+  // several times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
   dyn_real minimum_condition_bound;
 } dyn_limits;
 

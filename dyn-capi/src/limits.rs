@@ -31,12 +31,12 @@ pub struct Limits {
     pub maximum_hooke_joint_angle: [Real; 6],
     /// Largest angle between a rod and its direction at home, both in axes of P, rad.
     pub maximum_platform_joint_angle: [Real; 6],
-    /// Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
+    /// Direction of each rod at home, B, length 1. Counts where an angle at the Hooke joint is limited.
     pub home_direction_in_base: [[Real; 3]; 6],
-    /// Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
+    /// Direction of each rod at home, P, length 1. Counts where an angle at the platform joint is limited.
     pub home_direction_in_platform: [[Real; 3]; 6],
-    /// Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is 3 to 4
-    /// times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
+    /// Least lower bound of the reciprocal condition number of J_dp, without unit; -INFINITY is no limit. The bound is
+    /// several times smaller than the number itself: look at the margin of DYN_QUANTITY_CONDITIONING at home first.
     pub minimum_condition_bound: Real,
 }
 

@@ -152,8 +152,6 @@ pub struct Info {
     pub struct_size: usize,
     /// The input to blame, or DYN_INPUT_NONE.
     pub input: InputName,
-    /// Index of its first element to blame, row-major, or -1.
-    pub element: i32,
     /// The first leg to blame, 0 to 5 (platform files count from 1), or -1.
     pub leg: i32,
     /// The quantity whose limit it is about, a `DYN_QUANTITY_...`, or -1.
@@ -162,6 +160,8 @@ pub struct Info {
     pub value: Real,
     /// The threshold that `value` failed; else 0.
     pub limit: Real,
+    /// Index of the first element of `input` to blame, row-major, or -1.
+    pub element: i32,
 }
 
 /// A status with its details.

@@ -81,8 +81,8 @@ impl<T: Real> VoiceCoils<T> {
         for (((current, force), wanted), (constant, limit)) in
             current.iter_mut().zip(&mut force).zip(&wanted).zip(coils())
         {
-            // Rounding may put the saturated coil one unit of the last place beyond, and its force too.
             let possible = (*constant * *limit).abs();
+            // Rounding may put the saturated coil one unit of the last place beyond, and its force too.
             *current = (*wanted * factor / *constant).max(-*limit).min(*limit);
             *force = (*wanted * factor).max(-possible).min(possible);
         }

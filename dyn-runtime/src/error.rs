@@ -79,14 +79,14 @@ pub enum Error {
         /// [`Real::MIN_RECIPROCAL_CONDITION`](crate::Real::MIN_RECIPROCAL_CONDITION).
         reciprocal_condition: f64,
     },
-    /// A limit that is none: NaN, or an angle that is limited without the direction at home that it is counted from.
+    /// An invalid limit: NaN, or an angle that is limited without the direction at home that it is counted from.
     InvalidLimit {
         /// What it limits.
         quantity: Quantity,
         /// Index of the first such leg, 0 to 5; none for conditioning.
         leg: Option<usize>,
     },
-    /// A voice coil that is none: its force constant is 0 or not finite, or its limit negative or NaN.
+    /// An invalid voice coil: its force constant is 0 or not finite, or its limit negative or NaN.
     InvalidCoil {
         /// Index of the first such leg, 0 to 5.
         leg: usize,

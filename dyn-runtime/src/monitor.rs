@@ -44,9 +44,9 @@ pub struct Limits<T = f64> {
     pub maximum_hooke_joint_angle_rad: [T; 6],
     /// Largest angle between the rod and its direction at home, both in platform axes, rad.
     pub maximum_platform_joint_angle_rad: [T; 6],
-    /// Direction of the rod at home, B. Counts where an angle at the Hooke joint is limited.
+    /// Direction of the rod at home, B, length 1. Counts where an angle at the Hooke joint is limited.
     pub home_direction_in_base: [[T; 3]; 6],
-    /// Direction of the rod at home, P. Counts where an angle at the platform joint is limited.
+    /// Direction of the rod at home, P, length 1. Counts where an angle at the platform joint is limited.
     pub home_direction_in_platform: [[T; 3]; 6],
     /// Least [`jacobian_condition_bound`](crate::jacobian_condition_bound), without unit; negative infinity is none. The bound is
     /// several times smaller than the reciprocal condition, and that is below 1 even for J_dp of an ideal layout, so that usual
