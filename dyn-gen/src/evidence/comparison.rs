@@ -193,13 +193,12 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// The function as derived, with the outputs of `generated` in their order: not all need be generated.
+/// The function as derived, with the outputs that are generated and no more.
 fn chosen(program: &Program, generated: &Graph) -> Option<Graph> {
-    let mut derived = program.flatten(program.function(&generated.name)?);
-    let all = std::mem::take(&mut derived.outputs);
-    let of_name = |name: &str| all.iter().find(|output| output.symbol.name == name).cloned();
-    derived.outputs = generated.outputs.iter().filter_map(|output| of_name(&output.symbol.name)).collect();
-    Some(derived)
+    let mut function = program.function(&generated.name)?.clone();
+    let is_generated = |name: &String| generated.outputs.iter().any(|output| output.symbol.name == *name);
+    function.outputs.retain(is_generated);
+    Some(program.flatten(&function))
 }
 
 /// The outputs of a graph at the states of a batch.
