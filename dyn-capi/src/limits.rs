@@ -1,6 +1,6 @@
 //! The calls about what actuators and joints may do: limits and coils of the platform file, margins, currents.
 
-use core::ffi::c_char;
+use core::ffi::{CStr, c_char};
 use core::mem::size_of;
 
 use dyn_runtime::current::{Currents, VoiceCoils};
@@ -11,7 +11,7 @@ use crate::inputs::Inputs;
 use crate::model::{Model, with_hexapod};
 use crate::pointers::{array, convert, explain, structure};
 use crate::real::Real;
-use crate::status::{Info, Refusal, Status};
+use crate::status::{Info, Refusal, Status, text};
 
 /// What actuators and joints may do. INFINITY is no limit (for minima -INFINITY).
 #[repr(C)]
@@ -127,7 +127,7 @@ pub unsafe extern "C" fn dyn_model_voice_coils(
     unsafe { convert(coils, info, || in_model(structure(model)?.platform()?.voice_coils().map(Into::into))) }
 }
 
-const QUANTITIES: &[(Quantity, &core::ffi::CStr)] = &[
+const QUANTITIES: &[(Quantity, &CStr)] = &[
     (Quantity::ActuatorLength, c"actuator_length"),
     (Quantity::ActuatorVelocity, c"actuator_velocity"),
     (Quantity::ActuatorForce, c"actuator_force"),
@@ -139,8 +139,7 @@ const QUANTITIES: &[(Quantity, &core::ffi::CStr)] = &[
 /// The name of a quantity: a static string, never null, also for numbers that are no quantity.
 #[unsafe(no_mangle)]
 pub extern "C" fn dyn_quantity_text(quantity: i32) -> *const c_char {
-    let row = QUANTITIES.iter().find(|(known, _)| *known as i32 == quantity);
-    row.map_or(c"not a quantity of this library", |(_, text)| *text).as_ptr()
+    text(QUANTITIES, |known| known as i32 == quantity, c"not a quantity of this library")
 }
 
 fn in_model<T>(carried: Option<T>) -> Result<T, Refusal> {

@@ -1,6 +1,6 @@
 //! How a call ended: a status for every reason, and where to look.
 
-use core::ffi::c_char;
+use core::ffi::{CStr, c_char};
 use core::mem::size_of;
 
 use dyn_runtime::parameter::{ParameterError, ParameterProblem};
@@ -242,11 +242,11 @@ impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         match error {
             Error::NonFinite { input, element } => {
-                let (of_legs, element) = (
-                    matches!(input, Input::ActuatorForce | Input::ActuatorLength | Input::ActuatorVelocity),
-                    element as i32,
-                );
-                let leg = if of_legs { element } else { -1 };
+                let element = element as i32;
+                let leg = match input {
+                    Input::ActuatorForce | Input::ActuatorLength | Input::ActuatorVelocity => element,
+                    _ => -1,
+                };
                 Self { element, leg, ..Self::of_input(Status::NonFinite, input.into()) }
             }
             Error::NotARotation { input, defect } => Self {
@@ -297,7 +297,7 @@ impl From<Input> for InputName {
     }
 }
 
-const STATUSES: &[(Status, &core::ffi::CStr)] = &[
+const STATUSES: &[(Status, &CStr)] = &[
     (Status::Ok, c"ok"),
     (Status::NullPointer, c"a pointer is null: pass the address of a variable"),
     (
@@ -363,11 +363,19 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
 /// A status in words, with the remedy: a static string, never null, also for numbers that are no status.
 #[unsafe(no_mangle)]
 pub extern "C" fn dyn_status_text(status: i32) -> *const c_char {
-    let row = STATUSES.iter().find(|(known, _)| *known as i32 == status);
-    row.map_or(c"not a status of this library", |(_, text)| *text).as_ptr()
+    text(STATUSES, |known| known as i32 == status, c"not a status of this library")
 }
 
-const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
+/// The text of the row whose number is meant, or `unknown`.
+pub(crate) fn text<T: Copy>(
+    rows: &[(T, &'static CStr)],
+    is_meant: impl Fn(T) -> bool,
+    unknown: &'static CStr,
+) -> *const c_char {
+    rows.iter().find(|(known, _)| is_meant(*known)).map_or(unknown, |(_, text)| text).as_ptr()
+}
+
+const INPUTS: &[(InputName, &CStr)] = &[
     (InputName::None, c"none"),
     (InputName::BasePosition, c"base_position"),
     (InputName::BaseRotation, c"base_rotation"),
@@ -413,6 +421,5 @@ const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
 /// The name of an input: a static string, never null, also for numbers that are no input.
 #[unsafe(no_mangle)]
 pub extern "C" fn dyn_input_text(input: i32) -> *const c_char {
-    let row = INPUTS.iter().find(|(known, _)| *known as i32 == input);
-    row.map_or(c"not an input of this library", |(_, text)| *text).as_ptr()
+    text(INPUTS, |known| known as i32 == input, c"not an input of this library")
 }
