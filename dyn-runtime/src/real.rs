@@ -15,8 +15,9 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     ///
     /// `f64`: 1e-6, ten times the rounding of single precision, so that a matrix measured or stored in f32
     /// passes. Results are wrong relatively by more than the matrix is, forces by an order of magnitude more: they hang on
-    /// small differences, such as the springs' from their rest lengths. More is a matrix integrated without care, or not a rotation at all. `f32`: 1e-5, because the product itself is rounded to 4e-7 there, and a
-    /// product of a few rotations to more.
+    /// small differences, such as the springs' from their rest lengths. More is a matrix integrated without care, or
+    /// not a rotation at all. `f32`: 1e-5, because the product itself is rounded to 4e-7 there, and a product of a few
+    /// rotations to more.
     const MAX_ROTATION_DEVIATION: Self;
 
     /// Least `(u.a)^2` of a leg.
@@ -31,8 +32,9 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     /// Least reciprocal condition of J_dp for which forces are computed.
     ///
     /// `f64`: 1e-6. Below, an error of the pose of a millionth of the platform's size changes the forces by as
-    /// much as they are, and of sixteen digits ten are left. `f32`: 1e-4; of seven digits three are left. The paper's platform at home
-    /// stands far above both, by orders of magnitude: [`jacobian_reciprocal_condition`](crate::jacobian_reciprocal_condition) gives the number.
+    /// much as they are, and of sixteen digits ten are left. `f32`: 1e-4; of seven digits three are left. The
+    /// paper's platform at home stands far above both, by orders of magnitude:
+    /// [`jacobian_reciprocal_condition`](crate::jacobian_reciprocal_condition) gives the number.
     const MIN_RECIPROCAL_CONDITION: Self;
 
     /// Platform and base farther apart than this along an axis of O are out of any leg's reach; far above it,
@@ -40,8 +42,9 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     const OVERFLOWING_DISTANCE_M: Self;
 
     /// Largest difference of a length, m, that forward kinematics leaves: `f64` 1e-12, `f32` 5e-7; some units in the last
-    /// place of the distances that lengths are made of. It is absolute: for platforms some ten times the paper's size (rods of 2 m)
-    /// rounding in `f32` is larger, so that forward kinematics may end with [`Error::NoConvergence`](crate::Error::NoConvergence) at the pose itself.
+    /// place of the distances that lengths are made of. It is absolute: for platforms some ten times the
+    /// paper's size (rods of 2 m) rounding in `f32` is larger, so that forward kinematics may end with
+    /// [`Error::NoConvergence`](crate::Error::NoConvergence) at the pose itself.
     const LENGTH_RESIDUAL_M: Self;
 
     /// Least `|cos c2|` at which the paper's angles have rates, [`angles::angle_rates`](crate::angles::angle_rates).

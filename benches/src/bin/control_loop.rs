@@ -64,7 +64,7 @@ struct Report {
 
 fn main() -> ExitCode {
     match measure(&Arguments::parse()) {
-        Ok(code) => code,
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+fn measure(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let platform = platform();
     let states = States::new(&sampled(&platform));
     let typed = bundle::typed_states(&states);
@@ -123,18 +123,20 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     }
     let ratio = reports[0].steady.p99_9_by_median;
     let share = reports[0].steady_share;
-    let fails = arguments.check && (ratio.is_nan() || ratio > MAX_RATIO || share < LEAST_STEADY);
-    if fails && share < LEAST_STEADY {
-        eprintln!(
-            "error: undecided, the machine was steady in {:.0} % of the cycles only; close other programs",
-            100.0 * share
-        );
-    } else if fails {
-        eprintln!(
-            "error: 999 of 1000 cycles on a steady machine keep {ratio:.1} times the median only, more than {MAX_RATIO}"
-        );
+    if arguments.check && share < LEAST_STEADY {
+        let percent = 100.0 * share;
+        return Err(format!(
+            "undecided, the machine was steady in {percent:.0} % of the cycles only; close other programs"
+        )
+        .into());
     }
-    Ok(if fails { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+    if arguments.check && (ratio.is_nan() || ratio > MAX_RATIO) {
+        return Err(format!(
+            "999 of 1000 cycles on a steady machine keep {ratio:.1} times the median only, more than {MAX_RATIO}"
+        )
+        .into());
+    }
+    Ok(())
 }
 
 fn report(implementation: &'static str, runs: &[Run]) -> Report {
